@@ -18,7 +18,7 @@ pub struct FaultCells {
     pub areas: Vec<f64>,
     /// The number of coordinates of a centre that count, 1 to 3.
     pub dimension: usize,
-    /// Which cells they are; parts and matrices of others are refused. `None` if unknown.
+    /// The identity of the cells; parts and matrices of others are refused. `None` if unknown.
     pub identity: Option<MeshId>,
 }
 

@@ -111,7 +111,7 @@ impl Search<'_> {
 }
 
 impl Model<'_> {
-    /// Which samples have a weight.
+    /// Whether each sample has a weight.
     pub(crate) fn weighted(&self) -> Vec<bool> {
         self.roots.iter().map(|root| *root > 0.0).collect()
     }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::load::LoadHistory;
 use crate::record::Record;
 
-/// What the curve shows without a model.
+/// Features of the curve that need no model.
 pub(crate) struct Features {
     /// The slope of the steady levels in `ln V`.
     pub(crate) a_minus_b: f64,

@@ -42,10 +42,10 @@ pub struct Fit<'a> {
     pub(crate) step_offset: bool,
     pub(crate) loss: Loss,
     pub(crate) reference_velocity: Option<f64>,
-    /// Of which a parameter with equal bounds is fixed.
+    /// Bounds of parameters; equal bounds fix one.
     pub(crate) bounds: Vec<(Parameter, f64, f64)>,
     pub(crate) guess: Option<Parameters>,
-    /// Of single parameters.
+    /// Guesses of single parameters.
     pub(crate) guesses: Vec<(Parameter, f64)>,
 }
 

@@ -25,11 +25,11 @@ pub struct Estimate {
     pub standard_error: f64,
 }
 
-/// What standard errors are those of.
+/// The errors of the data that standard errors assume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Errors {
-    /// Of independent errors of the data with equal weighted variance.
+    /// Independent errors with equal weighted variance.
     Independent,
     /// Of errors of which neighbours have the correlation `c` of the residuals, and others `c^n` over `n` samples: a process
     /// of first order, AR(1).
@@ -55,7 +55,7 @@ pub struct Fitted {
     pub a_minus_b: (f64, f64),
     /// The weighted root mean square of the residuals.
     pub rms: f64,
-    /// What the standard errors and the correlations are those of.
+    /// The errors of the data that standard errors and correlations assume.
     pub errors: Errors,
     /// The correlation of the residuals of neighbouring samples, with that which the fit takes from them.
     #[doc(alias = "autocorrelation")]
@@ -75,7 +75,7 @@ pub struct Fitted {
     /// models of the same data the smaller one is preferred, by `exp(-difference/2)`. By Huber's loss the sum is that of the
     /// losses.
     pub aic: f64,
-    /// What the data do not determine.
+    /// Warnings of parameters that the data do not determine.
     pub warnings: Vec<Warning>,
     /// The coefficient of friction of the model at the samples.
     pub friction: Vec<f64>,

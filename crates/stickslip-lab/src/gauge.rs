@@ -10,7 +10,7 @@ use crate::search::{FINE, Search};
 /// The largest number of curves: all errors of up to 31 pieces on their own, and more in groups.
 const CURVES: usize = 64;
 
-/// What the errors of a measured history do.
+/// The effect of the errors of a measured history.
 pub(crate) struct GaugeErrors {
     /// The covariance of the fitted values.
     pub(crate) covariance: DMatrix<f64>,

@@ -6,7 +6,7 @@ const BOUND: f64 = 1.345;
 /// The median of the magnitude of normally distributed errors is 0.6745 standard deviations.
 const MEDIAN: f64 = 0.6745;
 
-/// What a residual counts in the sum that is minimised.
+/// The weight of a residual in the sum that is minimised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Loss {
     /// Its square: the best for normally distributed errors.

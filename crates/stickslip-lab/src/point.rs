@@ -2,7 +2,7 @@
 
 use crate::parameters::{Parameter, Parameters};
 
-/// What a curve depends on.
+/// The parameters of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Point {
     pub(crate) parameters: Parameters,

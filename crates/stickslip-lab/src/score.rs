@@ -7,10 +7,10 @@ use crate::normal::{Linearised, Normal};
 use crate::parameters::Parameter;
 use crate::spread::{independent, neighbours};
 
-/// What a fit would gain by further parameters, in the linear approximation at its minimum.
+/// The gain of a fit by further parameters, in the linear approximation at its minimum.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Score {
-    /// By how much Akaike's information criterion would fall.
+    /// The fall of Akaike's information criterion.
     pub(crate) evidence: f64,
     /// The value and the standard error of each further parameter.
     pub(crate) estimates: Vec<(f64, f64)>,

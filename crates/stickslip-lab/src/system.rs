@@ -46,7 +46,7 @@ pub(crate) struct System<const N: usize> {
     pub(crate) load: f64,
 }
 
-/// What a point determines: `w`, its derivatives, `exp(w)` and the rates of the states.
+/// The system at a point: `w`, its derivatives, `exp(w)` and the rates of the states.
 pub(crate) struct Point<const N: usize, const W: usize> {
     pub(crate) w: [f64; W],
     pub(crate) faster: f64,

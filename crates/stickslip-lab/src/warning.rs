@@ -82,7 +82,7 @@ pub enum Warning {
     },
     /// The record begins in a transient: with a free beginning the criterion (AIC) would be lower by more than 10.
     Transient {
-        /// By how much it would be lower, in the linear approximation.
+        /// The fall of the criterion, in the linear approximation.
         aic: f64,
     },
     /// A parameter, of any kind, is at a bound, where the sum of squares is not stationary.

@@ -31,7 +31,7 @@ pub(crate) fn add<Number: Copy + PartialEq, const C: usize>(
 pub(crate) struct SharedBasis<const C: usize> {
     /// The rows of `T` that are not those of the identity, of all processes.
     rows: HashMap<u64, Row<C>>,
-    /// Those of `T^-1` in this process, by its own numbers.
+    /// The rows of `T^-1` in this process, by its own numbers.
     pub(crate) inverse: BasisRows<C>,
 }
 

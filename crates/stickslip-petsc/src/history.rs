@@ -25,7 +25,7 @@ pub enum Column {
     Time,
     /// The iterations of the coupling in this step.
     CouplingIterations,
-    /// Those of the solver.
+    /// The iterations of the solver.
     SolverIterations,
     /// The largest slip rate of all contacts \[m/s\].
     MaxSlipRate,
@@ -69,7 +69,7 @@ impl Column {
 }
 
 impl SharedHistory {
-    /// Of a vertex, which is `None` in all processes but its own.
+    /// A history of a vertex, `None` in all processes but its own.
     pub fn new(world: World, vertex: Option<usize>) -> Self {
         let rows = Vec::new();
         Self {

@@ -20,7 +20,7 @@ pub(crate) struct Layout {
     pub(crate) first: u64,
     /// The global numbers of ghosts, increasing, so those of one owner together.
     pub(crate) ghosts: Vec<u64>,
-    /// Which owned vertices are sent, neighbour after neighbour.
+    /// The owned vertices that are sent, neighbour after neighbour.
     sent: Vec<u32>,
     /// Rank, and how many vertices are sent and received.
     neighbours: Vec<(usize, usize, usize)>,
@@ -37,7 +37,7 @@ struct Room {
 }
 
 impl Layout {
-    /// That of no vertex in one process.
+    /// A layout of no vertex in one process.
     pub(crate) fn empty() -> Self {
         Self {
             world: World::alone(),

@@ -167,7 +167,7 @@ impl<const D: usize> DistributedSpace<D> {
         &self.places
     }
 
-    /// Which vertices are whose.
+    /// The owners of the vertices.
     pub(crate) fn layout(&self) -> &Arc<Layout> {
         &self.layout
     }

@@ -79,7 +79,7 @@ pub(crate) struct Shares<'a> {
 }
 
 impl<'a> Shares<'a> {
-    /// Of so many vertices.
+    /// The links of a body of `size` vertices.
     pub(crate) fn new(size: usize, links: &'a Links) -> Self {
         let (mut of, mut back) = (vec![None; size], vec![None; size]);
         for link in links.iter() {

@@ -10,9 +10,9 @@ use super::whole_space::WholeSpace;
 pub(crate) struct Weights {
     pub(crate) components: [usize; 2],
     pub(crate) odd: bool,
-    /// Of slip along strike and up dip: the share of shear along strike, of shear up dip and of tension.
+    /// The stress components of slip along strike and up dip: shares of shear along strike, of shear up dip and of tension.
     pub(crate) image: [[f64; 3]; 2],
-    /// Of the block in a whole space.
+    /// The stress components of the block in a whole space.
     whole: [f64; 3],
 }
 

@@ -11,16 +11,16 @@ use super::whole_space::{Block, between};
 #[derive(Debug)]
 pub(crate) struct Convolution {
     transform: PlaneTransform,
-    /// Of the pairs of components: (0, 0), then (0, 1), (1, 1).
+    /// The pairs of components: (0, 0), then (0, 1), (1, 1).
     pairs: Vec<Pair>,
 }
 
 /// The entries between two components.
 #[derive(Debug)]
 struct Pair {
-    /// By the difference down dip, then along strike, both on their periods.
+    /// Entries `[down dip][along strike]` by differences, both on their periods.
     entries: Vec<f64>,
-    /// By the wave number along strike, then down dip.
+    /// The spectrum `[k_strike][k_dip]`.
     spectrum: Vec<f64>,
 }
 

@@ -138,7 +138,7 @@ impl Rock {
         })
     }
 
-    /// What to weigh the entries of a gradient times 2 pi with, for the sum of those of its stress with these weights.
+    /// The weights of a gradient, times 2 pi, whose weighted sum is that of its stress with `weights`.
     pub(crate) fn of_gradient(&self, weights: &Matrix3<f64>) -> Gradient {
         let mu = self.shear_modulus / (2.0 * PI);
         let own = self.ratio * weights.trace();

@@ -72,7 +72,7 @@ pub struct PlaneFault<const C: usize = 2> {
     pub(super) space: Space,
     /// The components of slip, along strike and up dip.
     pub(super) directions: [[f64; 2]; C],
-    /// Of all that ask for it, clones included.
+    /// The interaction, shared by clones; computed on first use.
     pub(super) interaction: Arc<OnceLock<Arc<Matrix>>>,
 }
 

@@ -31,9 +31,9 @@ struct RowPart {
     first: usize,
     count: usize,
     memory: RowMemory,
-    /// By component, then row, then mode.
+    /// Spectra `[component][row][mode]`.
     spectra: Vec<Complex<f64>>,
-    /// By component, then row, then column.
+    /// Products `[component][row][column]`.
     products: Vec<f64>,
 }
 
@@ -41,11 +41,11 @@ struct RowPart {
 #[derive(Clone)]
 struct ModePart {
     first: usize,
-    /// By mode, then component, then row.
+    /// Slip `[mode][component][row]`.
     x: Vec<Complex<f64>>,
-    /// By mode, then component, then row up to whole panels: real parts, then imaginary parts.
+    /// Stress `[mode][component][row]`, rows up to whole panels: real parts, then imaginary parts.
     y: Vec<f64>,
-    /// Of the matrices that are split.
+    /// The memory of split matrices.
     split: Option<split::Memory>,
 }
 

@@ -21,7 +21,7 @@ pub(crate) struct Layers {
     pub(super) down_dip: DownDip,
 }
 
-/// What a mode does to the rows.
+/// The action of a mode on the rows.
 pub(super) enum DownDip {
     /// One matrix per mode and block.
     Dense(Vec<ModeMatrices>),
@@ -31,9 +31,9 @@ pub(super) enum DownDip {
 
 /// The modes of a block while it is assembled.
 pub(crate) struct Assembled {
-    /// What depends on both rows.
+    /// The part that depends on both rows.
     pub(crate) images: ModeMatrices,
-    /// What depends on their difference: by mode, then difference from the least on; or empty.
+    /// The part that depends on the difference of rows: `[mode][difference]`, from the least on; or empty.
     pub(crate) differences: Vec<f64>,
 }
 

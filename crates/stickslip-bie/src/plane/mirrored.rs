@@ -28,15 +28,15 @@ pub(crate) struct Mirrored {
     direct: Convolution,
     /// `z_i`, in depths of the lowest row.
     depths: Vec<f64>,
-    /// By receiving component, then slipping component.
+    /// Images `[receiving component][slipping component]`.
     images: Vec<Image>,
 }
 
 #[derive(Debug)]
 struct Image {
-    /// Of each power, by the sum of rows, then the difference of columns on its period.
+    /// Entries of each power, `[sum of rows][difference of columns]`, the latter on its period.
     entries: [Vec<f64>; POWERS],
-    /// By the wave number along strike, then down dip.
+    /// Spectra of each power, `[k_strike][k_dip]`.
     spectra: [Vec<Complex<f64>>; POWERS],
 }
 
@@ -44,7 +44,7 @@ struct Image {
 #[derive(Clone)]
 pub(crate) struct Memory {
     plane: transform::Memory,
-    /// Of a wave number along strike: slip of each component, then the powers of a force.
+    /// Fields of a wave number along strike: slip of each component, then the powers of a force.
     slip: Vec<Complex<f64>>,
     force: Vec<Complex<f64>>,
 }

@@ -21,7 +21,7 @@ pub(crate) struct ModeMatrices {
     pub(crate) components: [usize; 2],
     pub(crate) odd: bool,
     rows: usize,
-    /// By mode, then panel of receiving rows.
+    /// Panels `[mode][panel of receiving rows]`.
     panels: Vec<Panel>,
     pub(super) double: Vec<Double>,
     pub(super) single: Vec<Single>,

@@ -24,7 +24,7 @@ pub struct PlaneNormalKernel<const C: usize> {
 }
 
 impl<const C: usize> PlaneNormalKernel<C> {
-    /// Of slip that causes no normal stress.
+    /// The kernel of slip that causes no normal stress.
     pub(crate) fn zero(cells: &Rectangles) -> Self {
         Self {
             mesh: cells.identity(),

@@ -102,7 +102,7 @@ impl Ranks {
         }
     }
 
-    /// Those of a complex number by a real one in the products of all modes.
+    /// The multiplications of a complex number by a real one in the products of all modes.
     pub(super) fn multiplications(&self) -> usize {
         PANEL * self.panels.len()
     }

@@ -15,7 +15,7 @@ use crate::convolution::fast_length;
 /// their distance alone, and are multiplied by transforms down dip; what the free surface adds is smooth.
 pub(crate) struct Split {
     rows: usize,
-    /// Of a complex number by a real one in a product.
+    /// The multiplications of a complex number by a real one in a product.
     multiplications: usize,
     /// The transforms down dip, of twice the number of rows; none if there is no part of a whole space.
     transforms: Option<[Arc<dyn Fft<f64>>; 2]>,
@@ -26,7 +26,7 @@ pub(crate) struct Split {
 pub(crate) struct Block {
     pub(super) components: [usize; 2],
     pub(super) odd: bool,
-    /// By mode, then difference of rows from the least on; empty without a part of a whole space.
+    /// Spectra `[mode][difference of rows]`, from the least on; empty without a part of a whole space.
     differences: Vec<f64>,
     /// Spectra by mode, then wave number down dip, normalised by the transform length: real, since a block is even or odd in both
     /// differences at once.
@@ -37,10 +37,10 @@ pub(crate) struct Block {
 /// The memory of the products of a mode.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Memory {
-    /// Of each slipping component, then of one force.
+    /// Spectra of each slipping component, then of one force.
     waves: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
-    /// Of the pairs of a mode.
+    /// Real and imaginary parts of the pairs of a mode.
     parts: Vec<f64>,
     pairs: Vec<Complex<f64>>,
 }
@@ -104,7 +104,7 @@ impl Split {
         })
     }
 
-    /// Those of a complex number by a real one in the products of all modes.
+    /// The multiplications of a complex number by a real one in the products of all modes.
     pub(super) fn multiplications(&self) -> usize {
         self.multiplications
     }

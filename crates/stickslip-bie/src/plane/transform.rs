@@ -24,15 +24,15 @@ pub(crate) struct PlaneTransform {
 pub(crate) struct Memory {
     values: Vec<f64>,
     row: Vec<Complex<f64>>,
-    /// Of each component, by the wave number along strike, then down dip.
+    /// Spectra of each component, `[k_strike][k_dip]`.
     pub(crate) modes: Vec<Vec<Complex<f64>>>,
     pub(crate) scratch: Vec<Complex<f64>>,
-    /// Of each component, by cells.
+    /// Products of each component, by cells.
     pub(crate) products: Vec<Vec<f64>>,
 }
 
 impl PlaneTransform {
-    /// Of so many cells; on a period, or not.
+    /// The transforms of `counts` cells, on a period or not.
     pub(crate) fn new(counts: [usize; 2], periodic: [bool; 2]) -> Self {
         let lengths = [0, 1].map(|axis| match periodic[axis] {
             true => counts[axis],

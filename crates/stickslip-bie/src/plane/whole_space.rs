@@ -29,7 +29,7 @@ pub(crate) struct WholeSpace {
     pub(crate) shear_modulus: f64,
     /// `nu/(1 - nu)`.
     pub(crate) ratio: f64,
-    /// Of a cell, along strike and down dip.
+    /// The size of a cell along strike and down dip.
     pub(crate) size: [f64; 2],
 }
 

@@ -9,7 +9,7 @@ use super::{Area, Draw, Drawn, Map, key, letters};
 pub struct Sheet<'a> {
     maps: Vec<(String, Map<'a>)>,
     columns: usize,
-    /// Of a map with its title.
+    /// The size of a map with its title.
     size: (u32, u32),
 }
 

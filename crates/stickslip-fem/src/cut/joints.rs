@@ -104,7 +104,7 @@ impl<const D: usize> Joints<D> {
     }
 }
 
-/// Those of some rims that lie on the outer boundary of the body.
+/// The rims that lie on the outer boundary of the body.
 pub(super) fn leaving<const D: usize>(
     mesh: &Mesh<D>,
     copies: &[u32],

@@ -99,7 +99,7 @@ mod tests {
     use super::*;
     use crate::many_cells::double::Double;
 
-    /// Of one cell.
+    /// The balance of one cell.
     fn balance(t: f64, l: f64) -> f64 {
         let [y] = super::balance(&[t], &[l]);
         y

@@ -11,7 +11,7 @@ pub(super) const CELLS: usize = 64;
 /// One number per cell.
 pub(super) type Numbers = [f64; CELLS];
 
-/// What the cells of a block need of their laws.
+/// Law parameters of a block of cells.
 ///
 /// `l = offset - ln(a sigma) - slope state` and `ln theta = log_theta[0] + log_theta[1] state`.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ pub(super) struct Block {
     per_distance: Numbers,
 }
 
-/// What all cells share.
+/// Parameters that all cells share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Shared {
     /// `eta`.
@@ -45,7 +45,7 @@ pub(super) struct Fields {
 }
 
 impl Block {
-    /// Of at most [`CELLS`] laws, at least one; the last one fills the block.
+    /// A block of at most [`CELLS`] laws, at least one; the last one fills the block.
     pub(super) fn new(
         laws: &[RegularizedDieterichRuina],
         damping: f64,

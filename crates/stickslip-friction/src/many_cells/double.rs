@@ -12,7 +12,7 @@ impl Double {
         self.0 + self.1
     }
 
-    /// By Taylor's series to `x^30/30!` after a reduction by `ln 2`.
+    /// The exponential by Taylor's series to `x^30/30!` after a reduction by `ln 2`.
     pub(super) fn exp(self) -> Self {
         // The next parts of ln 2 after its double.
         let ln_2 = Self(std::f64::consts::LN_2, 2.319_046_813_846_299_6e-17);

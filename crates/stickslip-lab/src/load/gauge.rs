@@ -7,9 +7,9 @@ use super::{LoadHistory, Piece};
 pub(super) struct LineError {
     /// The mean time of its samples \[s\], at which the errors of displacement and velocity are independent.
     pub(super) middle: f64,
-    /// That of the displacement there \[m\]; 0 of a history that is given.
+    /// The standard error of the displacement there \[m\]; 0 for a given history.
     pub(super) displacement: f64,
-    /// That of the velocity [m/s].
+    /// The standard error of the velocity [m/s].
     pub(super) velocity: f64,
 }
 

@@ -6,10 +6,10 @@ use std::cmp::Ordering;
 #[derive(Clone, Copy)]
 pub(super) struct Removal {
     pub(super) piece: usize,
-    /// That of the piece when the cost was computed.
+    /// The version of the piece when the cost was computed.
     pub(super) version: usize,
     pub(super) split: usize,
-    /// By how much it raises the sum of squares [m^2].
+    /// The rise of the sum of squares [m^2].
     pub(super) cost: f64,
 }
 

@@ -88,7 +88,7 @@ pub enum StateLawViolation {
         /// The value of the state after.
         to: f64,
     },
-    /// Of two states the smaller one ends above the larger one.
+    /// The smaller of two states ends above the larger one.
     #[error("advance {step} leads to {to:e}, from {upper:e} to {to_upper:e}")]
     Order {
         /// The step from the smaller state.

@@ -21,7 +21,7 @@ pub(crate) struct Formatted<Op: Operator<C>, const C: usize> {
     /// The viscosities one by one, and their sum if there are several.
     pub(super) viscosities: Vec<Op>,
     pub(super) viscosity: Option<Op>,
-    /// Those that lag in explicit steps.
+    /// The viscosities that lag in explicit steps.
     pub(super) lagged: Option<Lagged<Op>>,
     pub(super) equilibrium: Option<EquilibriumSolver<Op, C>>,
 }

@@ -8,7 +8,7 @@ use crate::laws::StateStep;
 use crate::scene::{Source, Strength};
 use crate::{BoundaryPart, ContactState, SceneError, StepError};
 
-/// What of a deformation makes a normal stress.
+/// The quantity of a deformation that makes a normal stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Cause {
     /// The reactions of fixed normal velocities.
@@ -23,9 +23,9 @@ pub(crate) struct FromBody {
     pub(crate) cause: Cause,
     /// The part that does not depend on the deformation \[Pa\].
     pub(crate) beside: Vec<f64>,
-    /// Those in trial \[Pa\]; negative in tension.
+    /// The normal stresses in trial \[Pa\]; negative in tension.
     pub(crate) trial: Vec<f64>,
-    /// Those of the body itself, which the trial follows with a delay; empty without one \[Pa\].
+    /// The normal stresses of the body itself, which the trial follows with a delay; empty without one \[Pa\].
     pub(crate) unrelaxed: Vec<f64>,
     /// The friction that the difference to those of the deformation makes \[N\].
     pub(crate) missing: Vec<f64>,

@@ -25,7 +25,7 @@ pub struct FieldSizes {
     pub sources: usize,
 }
 
-/// What a fault shows its fields: one number per vertex of the contact.
+/// The quantities that a fault shows its fields: one number per vertex of the contact.
 #[derive(Debug, Clone, Copy)]
 pub struct FaultRates<'a> {
     /// The time \[s\].

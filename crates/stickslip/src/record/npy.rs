@@ -8,7 +8,7 @@ use super::check::require;
 use crate::{FileError, SceneError};
 
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
-/// What this module reads.
+/// The kind of file that this module reads.
 const KIND: &str = "NumPy array of little-endian f64 in C order";
 /// The data begin at a multiple of this number of bytes.
 const ALIGNED: usize = 64;

@@ -74,9 +74,9 @@ pub(crate) struct Strength<const C: usize> {
     pub(crate) opens: bool,
     pub(crate) cohesion: Nodal<f64>,
     pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
-    /// What weakens friction beside its state.
+    /// Forced rupture, which weakens friction beside its state.
     pub(crate) forced: Option<Nodal<ForcedRupture>>,
-    /// What lives on the fault and takes its pressure from the normal stress.
+    /// Fields on the fault, which take their pressure from the normal stress.
     pub(crate) fields: Vec<Arc<dyn FaultField>>,
 }
 

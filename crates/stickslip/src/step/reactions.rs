@@ -7,7 +7,7 @@ use super::skew::Skew;
 use crate::body::Matrices;
 use crate::contact::ContactSet;
 
-/// What makes the normal stresses of a velocity.
+/// The cause of the normal stresses of a velocity.
 #[derive(Clone)]
 pub(super) enum Cause<const C: usize> {
     /// The reactions of the body: the vertices that bear them, and the products of the operator there.

@@ -55,7 +55,7 @@ struct StressOfCells<'a, const R: usize, const C: usize> {
     rock: Rock,
     columns: Vec<Edge>,
     rows: Vec<Edge>,
-    /// By row, then column, of edges.
+    /// Corners `[row][column]` of edges.
     corners: Vec<[[f64; C]; R]>,
 }
 

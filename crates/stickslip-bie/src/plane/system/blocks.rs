@@ -87,7 +87,7 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         &mut self.values[columns..][..count]
     }
 
-    /// What vertex `j` causes at vertex `i`; zero on one plane.
+    /// The stress at vertex `i` per slip of vertex `j`; zero on one plane.
     pub(crate) fn entry(&self, i: usize, j: usize) -> SMatrix<f64, R, C> {
         let (plane, other) = (self.plane_of(i), self.plane_of(j));
         if plane == other {

@@ -57,7 +57,7 @@ pub struct FaultSystem<const C: usize = 2> {
     pub(super) planes: Vec<PlaneFault<C>>,
     pub(super) placements: Vec<Placement>,
     pub(super) ranges: Vec<Range<usize>>,
-    /// Of all that ask for them, clones included.
+    /// The shear blocks, shared by clones; computed on first use.
     shear: Arc<OnceLock<Arc<Blocks<C, C>>>>,
     normal: Arc<OnceLock<Arc<Blocks<1, C>>>>,
 }

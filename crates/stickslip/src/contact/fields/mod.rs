@@ -29,14 +29,14 @@ struct Field {
     memory: Vec<f64>,
     /// The sources at the start, and at the end.
     sources: [Vec<f64>; 2],
-    /// Those of the stages of an explicit method; empty before its first step.
+    /// The sources of the stages of an explicit method; empty before its first step.
     stages: Vec<Vec<f64>>,
     /// A memory of zeros, and one of an error.
     rest: Vec<f64>,
     missed: Vec<f64>,
 }
 
-/// What the contact shows its fields, one number per vertex.
+/// The quantities that a contact shows its fields, one number per vertex.
 #[derive(Clone)]
 struct Shown {
     slip_rate: Vec<f64>,
@@ -45,7 +45,7 @@ struct Shown {
     normal_stress: Vec<f64>,
 }
 
-/// Which of the sources of a field.
+/// The place of a source of a field.
 #[derive(Clone, Copy)]
 enum Place {
     Start,

@@ -99,7 +99,7 @@ pub struct RungeKutta<const C: usize> {
     many_cells: Option<ManyCells<C>>,
     /// The cells that relax far faster than the rest.
     soft: SoftCells<C>,
-    /// What resists an error of the displacement; none before the first step of a constant size.
+    /// The resistance to an error of the displacement; none before the first step of a constant size.
     resistances: Option<Box<Resistances<C>>>,
     /// The elastic forces of the stages.
     elastic: Elastic<C>,

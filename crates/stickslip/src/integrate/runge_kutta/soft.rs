@@ -45,7 +45,7 @@ pub(super) struct SoftCells<const C: usize> {
 }
 
 impl<const C: usize> SoftCells<C> {
-    /// Of frictional vertices without prescribed components, each of one contact; none on a single one.
+    /// The soft cells of frictional vertices without prescribed components, each of one contact; none on a single one.
     pub(super) fn new(stiffness: &dyn Matrix<C>, contacts: &ContactSet<C>, is_free: bool) -> Self {
         let vertices = &contacts.vertices[..];
         let cells = contacts.contacts.iter();

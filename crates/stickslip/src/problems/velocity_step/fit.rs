@@ -27,7 +27,7 @@ pub struct VelocityStepFit {
     pub deviation: f64,
     /// The number of attempted steps.
     pub steps: usize,
-    /// What the data do not determine.
+    /// Warnings of parameters that the data do not determine.
     pub warnings: Vec<Warning>,
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::FileError;
 
-/// What the lines of a file say.
+/// The content of the lines of a file.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
     /// The comments, without `#`.

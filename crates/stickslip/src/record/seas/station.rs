@@ -61,7 +61,7 @@ pub struct SeasStation<W: io::Write> {
     contact: usize,
     point: SeasPoint,
     place: Place,
-    /// Of the components of slip: their parts along strike and up dip.
+    /// The parts of the components of slip along strike and up dip.
     directions: Vec<[f64; 2]>,
     normal_stress: bool,
     log10_state: Box<dyn Fn(f64) -> f64 + Send + Sync>,

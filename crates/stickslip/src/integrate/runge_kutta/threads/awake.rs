@@ -31,7 +31,7 @@ pub(super) fn with_threads_awake<R: Send>(
     result
 }
 
-/// What the threads know of the work.
+/// The state of the work that the threads share.
 ///
 /// The work waits for whom it has given parts of itself. A thread that searched in the middle of such a part would wait
 /// for the work, and neither would return; so none begins to search once the work has begun.
