@@ -115,7 +115,8 @@ impl<const C: usize> Simulation<C> {
         self.state.coupling = [0.0; 4];
     }
 
-    /// Continues with another solver. The history stays; the next step refuses a solver for another mesh.
+    /// Continues with another solver. The history stays; the next step refuses a solver for another mesh. One for several
+    /// formats takes that of the scene by name: `set_solver::<DMatrix<f64>>(DenseNewton::new())`.
     ///
     /// # Errors
     /// [`SceneError::Format`] for a solver of matrices in another format than those of the scene: the simulation goes on
