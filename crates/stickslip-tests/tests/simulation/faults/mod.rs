@@ -4,6 +4,7 @@
 mod agreement;
 mod closed_forms;
 mod energy;
+mod fields;
 mod in_threads;
 mod one_type;
 mod other_cells;
