@@ -70,6 +70,7 @@ mod point;
 mod record;
 mod robust;
 mod rosenbrock;
+mod rounded;
 mod score;
 mod search;
 mod setup;

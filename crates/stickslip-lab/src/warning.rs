@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::parameters::Parameter;
-use crate::table::rounded;
+use crate::rounded::rounded;
 
 /// A reason to distrust a fitted parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]

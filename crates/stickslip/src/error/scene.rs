@@ -297,16 +297,3 @@ pub enum SceneError {
         value: f64,
     },
 }
-
-impl SceneError {
-    /// The method of an [`Unsupported`](Self::Unsupported) scene: implicit steps.
-    pub const IMPLICIT: &'static str = "implicit integration";
-    /// The method of an [`Unsupported`](Self::Unsupported) scene: an explicit scheme, or `RungeKutta`.
-    pub const EXPLICIT: &'static str = "explicit integration";
-    /// The method of an [`Unsupported`](Self::Unsupported) scene: the reduction of its body.
-    pub const REDUCTION: &'static str = "Craig-Bampton reduction";
-
-    pub(crate) fn unsupported(by: &'static str, requirement: &'static str) -> Self {
-        Self::Unsupported { by, requirement }
-    }
-}

@@ -24,6 +24,19 @@ pub(crate) const MORE_MODES: &str = "keep more of them";
 pub(crate) const WHOLE_PART: &str = "displace the whole part, or keep the vertex";
 
 impl SceneError {
+    /// The method of an [`Unsupported`](Self::Unsupported) scene: implicit steps.
+    pub const IMPLICIT: &'static str = "implicit integration";
+    /// The method of an [`Unsupported`](Self::Unsupported) scene: an explicit scheme, or `RungeKutta`.
+    pub const EXPLICIT: &'static str = "explicit integration";
+    /// The method of an [`Unsupported`](Self::Unsupported) scene: the reduction of its body.
+    pub const REDUCTION: &'static str = "Craig-Bampton reduction";
+
+    pub(crate) fn unsupported(by: &'static str, requirement: &'static str) -> Self {
+        Self::Unsupported { by, requirement }
+    }
+}
+
+impl SceneError {
     /// What to try, in words of this library: the last part of the message. `None` if the message alone says it, or the
     /// error is that of another crate.
     pub fn hint(&self) -> Option<&'static str> {

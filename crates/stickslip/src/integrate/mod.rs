@@ -1,6 +1,7 @@
 //! Runs and their reports: time steppers, step sizes and error control, states of a step, errors per node; interfaces
 //! for a coupling of the user's own.
 
+mod by_reference;
 mod compare;
 mod controller;
 mod crossing;
@@ -8,6 +9,7 @@ mod distance;
 mod drive;
 mod error_control;
 mod landing;
+mod run;
 mod runge_kutta;
 mod stepper;
 mod steps;
@@ -18,8 +20,9 @@ pub use crate::step::{CouplingReport, StepMaps};
 pub use crate::step_state::{ContactState, ControlState, StepReport};
 pub(crate) use compare::Comparison;
 pub use error_control::ErrorControl;
+pub use run::{IntoControlFlow, Run};
 pub use runge_kutta::RungeKutta;
-pub use stepper::{IntoControlFlow, Run, Stepper};
+pub use stepper::Stepper;
 pub use steps::Steps;
 
 /// The reason for the end of a run.

@@ -2,16 +2,17 @@
 
 use std::f64::consts::TAU;
 use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_solvers::{BlockMatrix, ConjugateGradients, MeshId, Symmetric};
 
+use super::loads::{spread, to_coordinates};
 use super::marks::marks;
 use super::projector::Projector;
 use super::support::Support;
 use crate::placement::{Parts, connect};
-use crate::scene::{AnyContact, Conditions, Load, Prescribed, Sides, check_reducible, common_mesh};
+use crate::scene::{AnyContact, Conditions, Prescribed, Sides, check_reducible, common_mesh};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
 /// A driven part outside the boundary.
@@ -222,45 +223,6 @@ impl<const C: usize> ReducedBody<C> {
         reduced
     }
 
-    /// Loads on the coordinates, those on the boundary along the coordinate axes, as loads are given.
-    fn loads(&self, given: Vec<Load<C>>) -> Result<Vec<Load<C>>, SceneError> {
-        let mut reduced = Vec::new();
-        for load in given {
-            reduced.push(match load {
-                Load::Constant(mut load) => {
-                    self.support.basis.forces_to_basis(&mut load);
-                    let mut forces = vec![0.0; self.projector.size()];
-                    self.projector.project(&load, &mut forces)?;
-                    Load::Constant(self.field(&forces))
-                }
-                Load::History(history) => {
-                    let size = self.support.fixed.len();
-                    let memory = (
-                        vec![SVector::zeros(); size],
-                        vec![0.0; self.projector.size()],
-                    );
-                    let memory = Mutex::new(memory);
-                    let (support, projector) = (self.support.clone(), self.projector.clone());
-                    let moves = self.moves.clone();
-                    Load::History(Arc::new(move |time, into: &mut [SVector<f64, C>]| {
-                        let mut memory = memory.lock().unwrap_or_else(PoisonError::into_inner);
-                        let (load, forces) = &mut *memory;
-                        load.fill(SVector::zeros());
-                        history(time, load);
-                        support.basis.forces_to_basis(load);
-                        if projector.project(load, forces).is_err() {
-                            // A step with it is refused with the place.
-                            forces.fill(f64::NAN);
-                        }
-                        spread(&moves, forces, into);
-                        to_coordinates(&support, into);
-                    }))
-                }
-            });
-        }
-        Ok(reduced)
-    }
-
     /// Coordinates as a field of the reduced body, on the boundary along the coordinate axes.
     pub(super) fn field(&self, coordinates: &[f64]) -> Vec<SVector<f64, C>> {
         let mut field = vec![SVector::zeros(); self.moves.len()];
@@ -288,24 +250,5 @@ impl<const C: usize> ReducedBody<C> {
             coordinates.extend(components.map(|c| value[c]));
         }
         Ok(coordinates)
-    }
-}
-
-/// Writes coordinates to their components.
-fn spread<const C: usize>(moves: &[[bool; C]], coordinates: &[f64], field: &mut [SVector<f64, C>]) {
-    let mut coordinates = coordinates.iter();
-    for (field, moves) in field.iter_mut().zip(moves) {
-        for c in (0..C).filter(|&c| moves[c]) {
-            field[c] = coordinates.next().copied().unwrap_or(0.0);
-        }
-    }
-}
-
-/// Rotates the vectors of the boundary to the coordinate axes.
-fn to_coordinates<const C: usize>(support: &Support<C>, field: &mut [SVector<f64, C>]) {
-    if !support.basis.is_empty() {
-        for (value, &vertex) in field.iter_mut().zip(&support.boundary) {
-            *value = support.basis.axes.to_coordinates(vertex, *value);
-        }
     }
 }

@@ -2,7 +2,9 @@
 
 mod body;
 mod build;
+mod follow;
 mod left_out;
+mod loads;
 mod marks;
 mod projector;
 #[cfg(feature = "checkpoint")]

@@ -2,6 +2,7 @@
 
 mod contact_view;
 mod global_fields;
+mod normal_stress;
 mod of_simulation;
 mod residuals;
 mod snapshot;

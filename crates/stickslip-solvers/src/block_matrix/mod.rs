@@ -1,12 +1,13 @@
 //! Compressed block rows: sprs storage, nalgebra blocks.
 
-use nalgebra::{SMatrix, SVector};
-use stickslip_core::compiled;
+mod compiled;
+mod sums;
 
-use crate::linked;
-use crate::parts::sum_parts;
-use crate::products::{multiply_add, quadratic};
+use nalgebra::{SMatrix, SVector};
+
 use crate::{Basis, MassMatrix, Matrix, MatrixDefect, Operator};
+use compiled::{add_product, change_basis, combination, combine, half_norm, square};
+pub(crate) use sums::{add, on_patterns};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
 ///
@@ -237,147 +238,5 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
 
     fn format() -> &'static str {
         "BlockMatrix"
-    }
-}
-
-compiled! {
-    fn add_product<C>(
-        matrix: &BlockMatrix<C>,
-        scale: f64,
-        x: &[SVector<f64, C>],
-        y: &mut [SVector<f64, C>],
-    ) {
-        multiply_add(Rows::of(matrix), scale, x, y);
-    }
-
-    fn square<C>(matrix: &BlockMatrix<C>, x: &[SVector<f64, C>]) -> f64 {
-        quadratic(Rows::of(matrix), x)
-    }
-
-    fn half_norm<C>(matrix: &BlockMatrix<C>, x: &[SVector<f64, C>]) -> f64 {
-        let rows = Rows::of(matrix);
-        let square = sum_parts(0..x.len(), (), &|part, ()| {
-            let mut square = 0.0;
-            for i in part {
-                let mut sum = SVector::zeros();
-                for (j, block) in rows.row(i) {
-                    if j >= i {
-                        if j == i {
-                            sum += block * x[i] * 0.5;
-                        }
-                        break;
-                    }
-                    sum += block * x[j];
-                }
-                square += x[i].dot(&sum);
-            }
-            square
-        });
-        if square < 0.0 {
-            0.0
-        } else {
-            (2.0 * square).sqrt()
-        }
-    }
-
-    fn change_basis<C>(matrix: &mut BlockMatrix<C>, basis: &Basis<C>) {
-        if !basis.links.is_empty() {
-            *matrix = linked::congruent(matrix, &basis.links);
-        }
-        let frames = &basis.axes;
-        let starts: Vec<u32> = matrix.indptr().into_raw_storage().to_vec();
-        let columns = matrix.indices().to_vec();
-        let values = matrix.data_mut();
-        let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
-        for (i, _) in frames.iter() {
-            for k in range(i) {
-                let j = columns[k] as usize;
-                values[k] = frames.block_to_frames((i, j), values[k]);
-                if frames.of(j).is_none() {
-                    let row = range(j);
-                    if let Ok(at) = columns[row.clone()].binary_search(&(i as u32)) {
-                        let at = row.start + at;
-                        values[at] = frames.block_to_frames((j, i), values[at]);
-                    }
-                }
-            }
-        }
-    }
-
-    fn combination<C>(
-        terms: &[(f64, &BlockMatrix<C>)],
-        mass: Option<(f64, &MassMatrix<C>)>,
-    ) -> BlockMatrix<C> {
-        let patterns = terms.iter().map(|(_, term)| Rows::of(term).pattern());
-        let mut sum = on_patterns(patterns.chain(mass.map(|(_, mass)| mass.pattern())));
-        combine(&mut sum, terms, mass);
-        sum
-    }
-
-    fn combine<C>(
-        sum: &mut BlockMatrix<C>,
-        terms: &[(f64, &BlockMatrix<C>)],
-        mass: Option<(f64, &MassMatrix<C>)>,
-    ) {
-        sum.data_mut().fill(SMatrix::zeros());
-        for (factor, term) in terms {
-            add(sum, term, |sum, block| *sum += block * *factor);
-        }
-        if let Some((factor, mass)) = mass {
-            mass.add_to(sum, factor);
-        }
-    }
-}
-
-/// A zero matrix on the union of the patterns, given by row starts and columns.
-pub(crate) fn on_patterns<'a, const C: usize>(
-    patterns: impl Iterator<Item = (&'a [u32], &'a [u32])>,
-) -> BlockMatrix<C> {
-    let patterns: Vec<_> = patterns.collect();
-    let size = patterns.first().map_or(0, |(starts, _)| starts.len() - 1);
-    let mut starts = vec![0_u32];
-    let mut columns: Vec<u32> = Vec::new();
-    for i in 0..size {
-        let begin = columns.len();
-        for (starts, all) in &patterns {
-            columns.extend_from_slice(&all[starts[i] as usize..starts[i + 1] as usize]);
-        }
-        columns[begin..].sort_unstable();
-        let mut end = begin;
-        for k in begin..columns.len() {
-            if end == begin || columns[end - 1] != columns[k] {
-                columns[end] = columns[k];
-                end += 1;
-            }
-        }
-        columns.truncate(end);
-        starts.push(end as u32);
-    }
-    let values = vec![SMatrix::zeros(); columns.len()];
-    BlockMatrix::new((size, size), starts, columns, values)
-}
-
-/// Adds `each` entry of a term to a sum whose pattern contains that of the term.
-pub(crate) fn add<T, const C: usize>(
-    sum: &mut BlockMatrix<C>,
-    term: &sprs::CsMatI<T, u32>,
-    mut each: impl FnMut(&mut SMatrix<f64, C, C>, &T),
-) {
-    if sum.indices().len() == term.indices().len() {
-        // A pattern is contained in the union, so equal counts are equal patterns.
-        for (sum, value) in sum.data_mut().iter_mut().zip(term.data()) {
-            each(sum, value);
-        }
-        return;
-    }
-    let source = Rows::of(term);
-    for i in 0..term.rows() {
-        let mut position = sum.indptr().outer_inds_sz(i).start;
-        for (j, value) in source.row(i) {
-            while sum.indices()[position] as usize != j {
-                position += 1;
-            }
-            each(&mut sum.data_mut()[position], value);
-        }
     }
 }

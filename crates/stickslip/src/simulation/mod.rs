@@ -1,17 +1,18 @@
 //! A scene in time, with its last accepted step and the means to restore an earlier one.
 
+mod compiled;
+
 use std::cell::OnceCell;
-use std::mem;
 
 use nalgebra::SVector;
-use stickslip_core::compiled;
 
 use crate::integrate::Comparison;
-use crate::step::{self, Problem, Span, Workspace};
-use crate::view::{self, GlobalFields, StepView};
+use crate::step::{Problem, Span, Workspace};
+use crate::view::GlobalFields;
 use crate::{
     Convexity, Residuals, SceneError, Snapshot, StepError, StepFailure, StepReport, StepState,
 };
+use compiled::{convexity, copy, residuals, restore, take_step, view_of};
 
 /// A scene in time: scene, scheme, solver, coupling and the last accepted state.
 ///
@@ -246,62 +247,5 @@ impl<const C: usize> Simulation<C> {
             (self.work.contacts).add_tractions_of(&self.state.contacts, &mut load);
             load
         })
-    }
-}
-
-compiled! {
-    fn take_step<C>(own: &mut Simulation<C>, dt: f64) -> Result<StepReport, StepFailure> {
-        let taken = step::step(&own.problem, &mut own.work, &own.state, dt);
-        let report = taken.map_err(|cause| {
-            let failure = StepFailure::of(&own.state.clock.after(dt), cause);
-            failure.placed(|vertex| own.snapshot().place_of(vertex))
-        })?;
-        mem::swap(&mut own.state, &mut own.work.end);
-        own.show();
-        Ok(report)
-    }
-
-    fn restore<C>(own: &mut Simulation<C>, state: &StepState<C>) -> Result<(), SceneError> {
-        state.check_fits(&own.state)?;
-        own.state.copy_from(state);
-        own.work.balanced = None;
-        own.show();
-        if let Some(comparison) = &mut own.comparison {
-            comparison.forget();
-        }
-        Ok(())
-    }
-
-    fn copy<C>(own: &Simulation<C>) -> Simulation<C> {
-        Simulation {
-            problem: own.problem.clone(),
-            work: own.work.clone(),
-            state: own.state.clone(),
-            comparison: own.comparison.clone(),
-            fields: own.fields.clone(),
-            applied: own.applied.clone(),
-        }
-    }
-
-    fn view_of<C>(own: &Simulation<C>) -> &dyn StepView<C> {
-        own
-    }
-
-    fn convexity<C>(
-        own: &mut Simulation<C>,
-        dt: f64,
-        max_slip_rate: f64,
-    ) -> Result<Convexity, StepError> {
-        let Simulation {
-            problem,
-            work,
-            state,
-            ..
-        } = own;
-        step::convexity(problem, work, state, dt, max_slip_rate)
-    }
-
-    fn residuals<C>(own: &Simulation<C>, from: &StepState<C>) -> Residuals {
-        view::residuals(own, from)
     }
 }
