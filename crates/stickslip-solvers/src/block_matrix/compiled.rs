@@ -3,8 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 use stickslip_core::compiled;
 
+use super::rows::{BlockMatrix, Rows};
 use super::sums::{add, on_patterns};
-use super::{BlockMatrix, Rows};
 use crate::parts::sum_parts;
 use crate::products::{multiply_add, quadratic};
 use crate::{Basis, MassMatrix, linked};

@@ -1,169 +1,22 @@
 //! Compressed block rows: sprs storage, nalgebra blocks.
 
 mod compiled;
+mod rows;
 mod sums;
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::{Basis, MassMatrix, Matrix, MatrixDefect, Operator};
 use compiled::{add_product, change_basis, combination, combine, half_norm, square};
-pub(crate) use sums::{add, on_patterns};
-
-/// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
-///
-/// Compressed rows with sorted columns and every diagonal block stored. The matrix is symmetric, as finite element
-/// assembly makes it. Indices are `u32`. They save a tenth of the memory traffic of a sweep with `2 x 2` blocks and a
-/// quarter with scalars.
-pub type BlockMatrix<const C: usize> = sprs::CsMatI<SMatrix<f64, C, C>, u32>;
-
-/// Interpolation weights from a coarse mesh (columns) to the next finer one (rows).
-pub type Prolongation = sprs::CsMatI<f64, u32>;
-
-/// Row-wise access to a compressed matrix without a view object per row.
-#[derive(Clone, Copy)]
-pub(crate) struct Rows<'a, T> {
-    pub(crate) starts: &'a [u32],
-    pub(crate) columns: &'a [u32],
-    pub(crate) values: &'a [T],
-}
-
-/// The adjacency of the vertices.
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
-pub(crate) type Graph<'a> = Rows<'a, ()>;
-
-impl<'a, T> Rows<'a, T> {
-    pub(crate) fn of(matrix: &'a sprs::CsMatI<T, u32>) -> Self {
-        Rows {
-            starts: matrix.indptr().into_raw_storage(),
-            columns: matrix.indices(),
-            values: matrix.data(),
-        }
-    }
-
-    /// The pattern without the values.
-    #[cfg(any(feature = "multigrid", feature = "condensed"))]
-    pub(crate) fn graph(&self) -> Graph<'a> {
-        Graph {
-            starts: self.starts,
-            columns: self.columns,
-            values: &[],
-        }
-    }
-
-    /// The row starts and the columns of all rows.
-    pub(crate) fn pattern(&self) -> (&'a [u32], &'a [u32]) {
-        (self.starts, self.columns)
-    }
-
-    /// The bandwidth: the largest distance of a column from its row.
-    pub(crate) fn bandwidth(&self) -> usize {
-        (0..self.starts.len().saturating_sub(1))
-            .flat_map(|i| self.row(i).map(move |(j, _)| i.abs_diff(j)))
-            .max()
-            .unwrap_or(0)
-    }
-
-    /// Whether the matrix is diagonal. The test has no branch per entry, since it runs before every product.
-    pub(crate) fn is_diagonal(&self) -> bool {
-        let counts = |indices: &[u32]| {
-            let counted = indices.iter().zip(0..);
-            counted.fold(true, |all, (&index, k)| all & (index == k))
-        };
-        self.columns.len() + 1 == self.starts.len() && counts(self.starts) && counts(self.columns)
-    }
-
-    #[inline(always)]
-    pub(crate) fn range(&self, row: usize) -> std::ops::Range<usize> {
-        self.starts[row] as usize..self.starts[row + 1] as usize
-    }
-
-    #[inline(always)]
-    pub(crate) fn row(
-        &self,
-        row: usize,
-    ) -> impl Iterator<Item = (usize, &'a T)> + Clone + use<'a, T> {
-        let range = self.range(row);
-        let (columns, values) = (&self.columns[range.clone()], &self.values[range]);
-        columns.iter().map(|&j| j as usize).zip(values)
-    }
-}
-
-/// `sum of block_j x_j` over some entries of a row; `x` begins at vertex `first`.
-///
-/// One accumulator per entry of a block: the chains are independent, and the loads fill a register.
-#[inline(always)]
-pub(crate) fn partial_product<const C: usize>(
-    columns: &[u32],
-    blocks: &[SMatrix<f64, C, C>],
-    first: usize,
-    x: &[SVector<f64, C>],
-) -> SVector<f64, C> {
-    let mut sums = [[0.0; C]; C];
-    for (&j, block) in columns.iter().zip(blocks) {
-        let x_j = &x[j as usize - first].data.0[0];
-        for c in 0..C {
-            for r in 0..C {
-                sums[c][r] += block.data.0[c][r] * x_j[c];
-            }
-        }
-    }
-    let mut sum = sums[0];
-    for column in &sums[1..] {
-        for r in 0..C {
-            sum[r] += column[r];
-        }
-    }
-    SVector::from(sum)
-}
-
-/// `(A x)_row`.
-#[inline(always)]
-pub(crate) fn row_product<const C: usize>(
-    matrix: &Rows<'_, SMatrix<f64, C, C>>,
-    row: usize,
-    x: &[SVector<f64, C>],
-) -> SVector<f64, C> {
-    row_product_behind(matrix, row, 0, x)
-}
-
-/// `(A x)_row`, of an `x` that begins at vertex `first`, before any column of the row.
-#[inline(always)]
-pub(crate) fn row_product_behind<const C: usize>(
-    matrix: &Rows<'_, SMatrix<f64, C, C>>,
-    row: usize,
-    first: usize,
-    x: &[SVector<f64, C>],
-) -> SVector<f64, C> {
-    let range = matrix.range(row);
-    let columns = &matrix.columns[range.clone()];
-    partial_product(columns, &matrix.values[range], first, x)
-}
-
-/// Adds to `y`, which begins at vertex `first`, the contribution of `x_row` to `A^T x`, last entry of the row first.
+pub(crate) use rows::Graph;
 #[cfg(feature = "multigrid")]
-#[inline(always)]
-pub(crate) fn add_transposed_row<const C: usize>(
-    matrix: &Rows<'_, SMatrix<f64, C, C>>,
-    row: usize,
-    x_row: &SVector<f64, C>,
-    first: usize,
-    y: &mut [SVector<f64, C>],
-) {
-    let range = matrix.range(row);
-    let entries = matrix.columns[range.clone()]
-        .iter()
-        .zip(&matrix.values[range]);
-    for (&j, block) in entries.rev() {
-        let y_j = &mut y[j as usize - first];
-        for c in 0..C {
-            let mut product = 0.0;
-            for r in 0..C {
-                product += block.data.0[c][r] * x_row[r];
-            }
-            y_j[c] += product;
-        }
-    }
-}
+pub(crate) use rows::add_transposed_row;
+#[cfg(feature = "multigrid")]
+pub(crate) use rows::partial_product;
+pub use rows::{BlockMatrix, Prolongation};
+pub(crate) use rows::{Rows, row_product, row_product_behind};
+pub(crate) use sums::{add, on_patterns};
 
 impl<const C: usize> Matrix<C> for BlockMatrix<C> {
     fn vertex_count(&self) -> usize {

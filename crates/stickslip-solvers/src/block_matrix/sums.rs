@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 
-use super::{BlockMatrix, Rows};
+use super::rows::{BlockMatrix, Rows};
 
 /// A zero matrix on the union of the patterns, given by row starts and columns.
 pub(crate) fn on_patterns<'a, const C: usize>(
