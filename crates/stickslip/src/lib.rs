@@ -71,8 +71,8 @@ mod checks;
 mod clock;
 mod contact;
 mod error;
-#[cfg(feature = "checkpoint")]
 pub mod fields;
+#[cfg(feature = "checkpoint")]
 mod file;
 mod file_error;
 pub mod integrate;

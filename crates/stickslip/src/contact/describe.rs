@@ -41,5 +41,8 @@ impl<const C: usize> DiscreteContact<C> {
             let times = each.flat_map(|forced| [forced.rupture_time, forced.duration]);
             fingerprint.bits(&of("forced rupture"), times.collect::<Vec<_>>().iter());
         }
+        if let Some(fields) = &self.fields {
+            fields.describe(time, of, fingerprint);
+        }
     }
 }

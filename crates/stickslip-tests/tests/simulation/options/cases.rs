@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 use stickslip::fem::{GridDiagonal, Mesh, P1, Trace, Viscous, body_force, elasticity, viscosity};
+use stickslip::fields::GivenPressure;
 use stickslip::friction::{ForcedRupture, FrictionLaw, LinearWeakening, Tresca};
 use stickslip::solvers::Cholesky;
 use stickslip::state::{Dieterich, LogTheta, SlipWeakening, Weakening};
@@ -121,7 +122,7 @@ const fn refused(
     }
 }
 
-pub(super) const CASES: [Case; 34] = [
+pub(super) const CASES: [Case; 35] = [
     used("with_contact", |s| {
         let wall = Contact::new(&right(s)?, Tresca { coefficient: 0.3 }, 1e2);
         Ok([body(s)?, body(s)?.with_contact(wall)])
@@ -281,6 +282,18 @@ pub(super) const CASES: [Case; 34] = [
             stress.iter_mut().for_each(|sigma| *sigma *= 1.0 + time)
         });
         Ok([body(s)?, dynamic(s)?.with_contact(pressed)])
+    }),
+    used("with_field", |s| {
+        let count = s.trace(|x| x[1] == 0.0)?.vertices().len();
+        let field = GivenPressure::new(count, 0.0, |time, pressure: &mut [f64]| {
+            pressure
+                .iter_mut()
+                .for_each(|own| *own -= NORMAL_STRESS * time)
+        });
+        Ok([
+            body(s)?,
+            dynamic(s)?.with_contact(contact(s)?.with_field(field)),
+        ])
     }),
     used("with_normal_stress_effect", |s| {
         let pressed = || {

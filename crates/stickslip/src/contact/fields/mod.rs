@@ -1,5 +1,7 @@
 //! The fields of a contact: memories, sources, and the pressure in force.
 
+#[cfg(feature = "checkpoint")]
+mod describe;
 mod in_steps;
 mod stages;
 
