@@ -54,7 +54,7 @@ use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
-use stickslip_solvers::{IntoOperator, LinearSolver, Operator, Walls};
+use stickslip_solvers::{IntoOperator, LinearSolver, Operator};
 use stickslip_state::{Reads, StateLaw};
 
 /// The name of the stiffness matrix in messages.
@@ -222,7 +222,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self.repeat("space", self.conditions.mesh.is_some());
         self.conditions.mesh = Some(space.mesh().identity().into());
         let splits = space.mesh().split_surfaces();
-        self.conditions.walls = splits.iter().map(Walls::from).collect();
+        self.conditions.walls = splits.iter().map(stickslip_solvers::Walls::from).collect();
         self
     }
 
