@@ -13,8 +13,8 @@ use crate::world::or_abort;
 /// The rows of the vertices that this process owns, of a symmetric matrix with one `C x C` block a pair of neighbours.
 ///
 /// Fields have one entry an owned vertex. Products and sums are those of the whole body, and all processes ask for them
-/// together; [`product_at`](Operator::product_at) is not a number where it needs a vertex of another process, and
-/// [`products_at`](Operator::products_at) is what to ask for instead.
+/// together; [`product_at`](Matrix::product_at) is not a number where it needs a vertex of another process, and
+/// [`products_at`](Matrix::products_at) is what to ask for instead.
 pub struct DistributedMatrix<const C: usize> {
     pub(crate) layout: Arc<Layout>,
     pub(crate) starts: Arc<Vec<u32>>,

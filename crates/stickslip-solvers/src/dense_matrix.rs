@@ -33,7 +33,7 @@ impl<const C: usize> Matrix<C> for DMatrix<f64> {
     }
 
     /// The products of some rows at a time: by columns, which are contiguous, in the order of
-    /// [`product_at`](Operator::product_at).
+    /// [`product_at`](Matrix::product_at).
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
         const ROWS: usize = 8;
         let rows = self.nrows();

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// A defect of a matrix as an operator on fields, see [`Operator::defect`](crate::Operator::defect).
+/// A defect of a matrix as an operator on fields, see [`Matrix::defect`](crate::Matrix::defect).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MatrixDefect {

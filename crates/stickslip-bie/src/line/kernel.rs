@@ -19,7 +19,7 @@ use crate::Kernel;
 ///
 /// **The matrix is not symmetric.** The elastic body is (Betti); the stress is taken at centres of cells instead of its
 /// mean over them, and below a free surface `A_ij` and `A_ji` then differ: by 1 to 5 % of the diagonal in the first rows
-/// and columns of a fault that reaches the surface, by less than 1e-4 from the tenth on. For an energy ledger: [`quadratic`](Operator::quadratic)`/2` is the
+/// and columns of a fault that reaches the surface, by less than 1e-4 from the tenth on. For an energy ledger: [`quadratic`](Matrix::quadratic)`/2` is the
 /// elastic energy up to that error, and its rate `V . (A + A^T) D/2` is not the power `V . A D` of the tractions. The
 /// difference, `V . (A - A^T) D/2`, vanishes with the length of the cells, not with the time step.
 ///

@@ -20,9 +20,9 @@ use super::terms::Terms;
 ///
 /// The matrix is symmetric in a whole space. In a half space it is symmetric up to a few per cent of the diagonal near
 /// the surface, because cells of constant slip are seen at their centres: products are those of the matrix as it is,
-/// [`quadratic`](Operator::quadratic) sees its symmetric part.
+/// [`quadratic`](stickslip_solvers::Matrix::quadratic) sees its symmetric part.
 ///
-/// In a half space [`product_at`](Operator::product_at) costs as much as a product of all cells.
+/// In a half space [`product_at`](stickslip_solvers::Matrix::product_at) costs as much as a product of all cells.
 ///
 /// [`PlaneFault`](crate::PlaneFault) makes it.
 #[doc(alias("FFT", "boundary element"))]

@@ -50,7 +50,7 @@ impl<const C: usize> Matrix<C> for BlockMatrix<C> {
         square(self, x)
     }
 
-    /// From half of the symmetric matrix. It reads less than [`quadratic`](Operator::quadratic). Smooth fields lose
+    /// From half of the symmetric matrix. It reads less than [`quadratic`](Matrix::quadratic). Smooth fields lose
     /// digits, which a norm can spare.
     fn norm(&self, x: &[SVector<f64, C>]) -> f64 {
         half_norm(self, x)

@@ -34,8 +34,10 @@ pub trait Run<const C: usize>: Stepper<C> {
     /// # Errors
     /// A [`StepFailure`] of a constant step that fails in all its substeps, or at once by
     /// [`without_substeps`](Steps::without_substeps); of an adaptive step that fails at every size allowed, or of a run
-    /// that stalls ([`StepError::StepTooSmall`], [`StepError::TooManySteps`]); [`StepError::Control`] and
-    /// [`StepError::Option`] for a plan that is inconsistent. The last accepted step stays in place.
+    /// that stalls ([`StepError::StepTooSmall`](crate::StepError::StepTooSmall),
+    /// [`StepError::TooManySteps`](crate::StepError::TooManySteps)); [`StepError::Control`](crate::StepError::Control)
+    /// and [`StepError::Option`](crate::StepError::Option) for a plan that is inconsistent. The last accepted step stays
+    /// in place.
     fn run<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,
@@ -54,7 +56,7 @@ pub trait Run<const C: usize>: Stepper<C> {
     /// step, or declared stops.
     ///
     /// # Errors
-    /// Those of [`run`](Run::run); [`StepError::Control`] at the time at which `value` is NaN.
+    /// Those of [`run`](Run::run); [`StepError::Control`](crate::StepError::Control) at the time at which `value` is NaN.
     fn run_to_crossing<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,

@@ -19,7 +19,7 @@ use crate::plane::terms::Terms;
 /// operator's own memory and allocates nothing: threads that share one operator wait for each other. Clones and
 /// combinations share the numbers of their interactions. `DMatrix::from` returns the dense matrix.
 ///
-/// The matrix is not symmetric: products are those of the matrix as it is, [`quadratic`](Operator::quadratic) sees its
+/// The matrix is not symmetric: products are those of the matrix as it is, [`quadratic`](Matrix::quadratic) sees its
 /// symmetric part, which need not be definite.
 ///
 /// [`FaultSystem`](crate::FaultSystem) makes it.
