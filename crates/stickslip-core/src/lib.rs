@@ -73,7 +73,7 @@ macro_rules! doors {
 /// The entry of a function.
 ///
 /// # Panics
-/// If there is none: a program calls the function with another number.
+/// If the function is called with a number that it is not compiled for.
 #[doc(hidden)]
 #[inline]
 pub fn door<Door: Any>(door: &'static dyn Any) -> &'static Door {

@@ -4,7 +4,7 @@
 /// for normally distributed errors. Source: P. J. Huber, *Robust Statistics* (1981), Sec. 4.
 const BOUND: f64 = 1.345;
 /// The median of the magnitude of normally distributed errors is 0.6745 standard deviations.
-const MEDIAN: f64 = 0.6745;
+pub(crate) const MEDIAN: f64 = 0.6745;
 
 /// The weight of a residual in the sum that is minimised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -158,7 +158,7 @@ fn best(
         if start.parameters.critical_stiffness() >= start.parameters.stiffness {
             continue;
         }
-        // Candidates that differ in what is guessed are one.
+        // Candidates that differ in guessed parameters alone are the same start.
         if !guesses.is_empty() {
             if tried.contains(&start) {
                 continue;

@@ -2,9 +2,7 @@
 
 use super::gauge::LineError;
 use super::line::Line;
-
-/// The median of the magnitude of normally distributed errors is 0.6745 standard deviations.
-const MEDIAN: f64 = 0.6745;
+use crate::loss::MEDIAN;
 
 /// The variance of a gauge and the number of samples in a row that say the same.
 #[derive(Debug, Clone, Copy, PartialEq)]

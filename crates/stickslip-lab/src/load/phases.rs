@@ -88,7 +88,7 @@ fn remove_ramps(all: &mut Vec<Phase>, to: f64) -> bool {
     removed
 }
 
-/// Which of the pieces are holds. A neighbour is the next piece that is none: there may be several in a row.
+/// True for each piece that is a hold. Its neighbours are the next pieces that are not holds: several may be in a row.
 fn at_rest(all: &[Phase]) -> Vec<bool> {
     let mut rests: Vec<bool> = all.iter().map(|phase| phase.velocity == 0.0).collect();
     loop {

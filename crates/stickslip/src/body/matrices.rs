@@ -112,7 +112,7 @@ impl<const C: usize> dyn Matrices<C> + '_ {
         viscosity.is_some()
     }
 
-    /// The same for one of the viscosities whose sum is `C`, counted from zero; false if there is none.
+    /// Adds the force of one of the viscosities whose sum is `C`, by its index from 0; false without a viscosity of that index.
     pub(crate) fn add_viscous_force_of(
         &self,
         number: usize,
