@@ -195,6 +195,13 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(stiffness: impl IntoOperator<C, Operator = Op>) -> Self {
+        // What computes is compiled for these numbers.
+        const {
+            assert!(
+                C == 1 || C == 2 || C == 3,
+                "scenes have one, two or three components"
+            )
+        };
         let (mesh, walls) = (stiffness.mesh(), stiffness.walls());
         let stiffness = stiffness.into_operator();
         let wrong = check_format(STIFFNESS, &stiffness).err();
