@@ -9,7 +9,8 @@ use stickslip::integrate::Stepper;
 use stickslip::{Checkpoint, Snapshot, Steps};
 
 use crate::cli::{Problem, count};
-use crate::record::{Progress, Record, Recording};
+use crate::progress::Progress;
+use crate::record::{Record, Recording};
 
 /// The checkpoint file of a run, and the file of its restart.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
@@ -19,7 +20,7 @@ pub struct Checkpoints {
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// Write the checkpoint every K steps [default: 1000]
-    #[arg(long, value_name = "K", requires = "checkpoint", value_parser = count)]
+    #[arg(long, value_name = "K", value_parser = count)]
     checkpoint_every: Option<NonZeroUsize>,
     /// Restart from a checkpoint of the same run, as if it had not ended; the files written are the same but for run
     /// times

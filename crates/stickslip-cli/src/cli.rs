@@ -6,7 +6,10 @@ use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Arg, Command, Parser};
+
+use crate::{unused, words};
 
 /// Any error that ends a program.
 pub type Problem = Box<dyn Error>;
@@ -27,7 +30,7 @@ pub fn run<A: Parser>(program: impl FnOnce(&A) -> Result<(), Problem>) -> ExitCo
     match answer(std::env::args_os(), program) {
         Ok(()) => ExitCode::SUCCESS,
         Err(refusal) => {
-            eprintln!("{}", refusal.message);
+            note!("{}", refusal.message);
             ExitCode::from(refusal.status)
         }
     }
@@ -43,7 +46,7 @@ pub fn answer<A: Parser>(
 ) -> Result<(), Refusal> {
     program(&arguments(words)?).map_err(|problem| Refusal {
         status: 1,
-        message: format!("error: {}", one_line(problem.to_string().lines())),
+        message: format!("error: {}", one_line(words::message(&*problem).lines())),
     })
 }
 
@@ -58,7 +61,7 @@ pub fn expect(what: &str, value: f64, expected: f64, tolerance: f64) -> Result<(
 /// The command line. If it is invalid, prints a message in one line and returns the exit status.
 pub fn read<A: Parser>() -> Result<A, ExitCode> {
     arguments(std::env::args_os()).map_err(|refusal| {
-        eprintln!("{}", refusal.message);
+        note!("{}", refusal.message);
         ExitCode::from(refusal.status)
     })
 }
@@ -88,7 +91,10 @@ fn parse<A: Parser>(words: impl IntoIterator<Item = OsString>) -> Result<A, clap
     };
     let subcommand = |command: Command| command.args_override_self(true).mut_args(signed);
     let command = subcommand(A::command()).mut_subcommands(subcommand);
-    A::from_arg_matches(&command.try_get_matches_from(words)?)
+    let matches = command.clone().try_get_matches_from(words)?;
+    unused::check(&matches)
+        .map_err(|message| clap::Error::raw(ErrorKind::ArgumentConflict, message))?;
+    A::from_arg_matches(&matches)
 }
 
 /// The message of an error, without the usage that follows after an empty line.

@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use clap::{Parser, Subcommand};
 
 use crate::cli::{self, Problem, Refusal};
+use crate::output::Files;
 use crate::{
     earthquakes, figures, fit, gmsh, layer, rupture, slider, slider3d, spring_slider, sweep,
 };
@@ -31,11 +32,31 @@ enum Command {
     Slider3d(slider3d::Arguments),
 }
 
+impl Command {
+    /// Where it writes to, and the name of its folder by default.
+    fn files(&self) -> (&Files, &'static str) {
+        match self {
+            Self::Slider(arguments) => (&arguments.files, "slider"),
+            Self::Figures(arguments) => arguments.files(),
+            Self::Fit(arguments) => (&arguments.output, "fit"),
+            Self::Earthquakes(arguments) => (&arguments.files, "earthquakes"),
+            Self::Gmsh(arguments) => (&arguments.files, "gmsh"),
+            Self::Sweep(arguments) => (&arguments.files, "sweep"),
+            Self::Rupture(arguments) => (&arguments.files, "rupture"),
+            Self::Layer(arguments) => (&arguments.files, "layer"),
+            Self::SpringSlider(arguments) => (&arguments.files, "spring_slider"),
+            Self::Slider3d(arguments) => (&arguments.files, "slider3d"),
+        }
+    }
+}
+
 /// Runs the command of a command line.
 ///
 /// # Errors
 /// The command fails.
 pub fn run(line: &CommandLine) -> Result<(), Problem> {
+    let (files, name) = line.command.files();
+    files.probe(name)?;
     match &line.command {
         Command::Slider(arguments) => slider::run(arguments),
         Command::Figures(arguments) => figures::run(arguments),

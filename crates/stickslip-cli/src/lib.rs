@@ -7,6 +7,12 @@
 
 // Brackets in the help of a command line are units, not links.
 #![allow(rustdoc::broken_intra_doc_links)]
+// A reader that closes a pipe must not end a command by a panic.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
+// Before the modules that use its macros.
+#[macro_use]
+pub mod output;
 
 pub mod checkpoints;
 pub mod cli;
@@ -19,9 +25,9 @@ pub mod gmsh;
 pub mod laws;
 pub mod layer;
 pub mod onsets;
-pub mod output;
 pub mod plot;
 pub mod probes;
+pub mod progress;
 pub mod record;
 pub mod rupture;
 pub mod sample;
@@ -29,3 +35,6 @@ pub mod slider;
 pub mod slider3d;
 pub mod spring_slider;
 pub mod sweep;
+pub mod table;
+mod unused;
+mod words;

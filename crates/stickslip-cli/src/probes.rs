@@ -8,6 +8,7 @@ use stickslip::integrate::{IntoControlFlow, RunReport};
 use stickslip::{Simulation, Snapshot, StepFailure, Steps};
 
 use crate::plot::Points;
+use crate::progress::Progress;
 
 /// The history of a vertex from its start: rows of numbers, the first of which is the time \[s\].
 pub struct Probe<const N: usize> {
@@ -80,11 +81,13 @@ impl<const C: usize, const N: usize> Probes<C, N> {
         }
     }
 
-    /// Takes the steps of a plan and records them; `observe` is called with each, too.
+    /// Takes the steps of a plan and records them, with their progress up to a time \[s\]; `observe` is called with each,
+    /// too.
     pub fn run<V: IntoControlFlow>(
         &mut self,
         simulation: &mut Simulation<C>,
         steps: &Steps,
+        (progress, end): (&mut Progress, f64),
         mut observe: impl FnMut(Snapshot<'_, C>) -> V,
     ) -> Result<RunReport, StepFailure> {
         let clock = Instant::now();
@@ -93,6 +96,7 @@ impl<const C: usize, const N: usize> Probes<C, N> {
             for probe in &mut self.each {
                 probe.rows.push((self.see)(&at, probe.place));
             }
+            progress.at(at.time, end, at.max_slip_rate());
             observe(at)
         });
         self.seconds += clock.elapsed().as_secs_f64();

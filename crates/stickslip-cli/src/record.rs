@@ -1,9 +1,8 @@
 //! The record of a run: the history of one vertex, its events, and the cost of every step.
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
 use stickslip::integrate::Stepper;
 use stickslip::{Run, SceneError, Snapshot, StepFailure, Steps};
@@ -13,6 +12,7 @@ use crate::cost::Statistics;
 use crate::onsets::Onsets;
 use crate::output::{Output, digits};
 use crate::plot::Points;
+use crate::progress::Progress;
 use crate::sample::Sample;
 
 /// The quantities to be recorded.
@@ -118,10 +118,8 @@ impl Record {
             if at.step.is_multiple_of(recording.every) {
                 self.samples.push(Sample::of(&at, recording.vertex));
             }
-            progress.show(at.time / recording.end, || {
-                let (time, rate) = (at.time, at.velocity[recording.vertex][0].abs());
-                format!("t = {time:.4} s  V = {rate:.2e} m/s")
-            });
+            let rate = at.velocity[recording.vertex][0].abs();
+            progress.at(at.time, recording.end, rate);
             self.planned += usize::from(recording.adaptive);
             keep(self, &at)
         });
@@ -190,54 +188,16 @@ impl Record {
              fixed_point_iterations,solver_iterations";
         let rows = self.samples.iter().map(|sample| {
             [
-                sample.step.to_string(),
+                sample.step.to_string().into(),
                 digits(sample.time),
                 digits(sample.displacement),
                 digits(sample.velocity),
                 digits(log_theta(sample.state)),
                 digits(sample.max_slip_rate),
-                sample.report.coupling_iterations.to_string(),
-                sample.report.solver_iterations.to_string(),
+                sample.report.coupling_iterations.to_string().into(),
+                sample.report.solver_iterations.to_string().into(),
             ]
         });
         output.table(name, COLUMNS, rows)
-    }
-}
-
-/// A progress bar on standard error at no cost for a run: updated a few times per second.
-pub struct Progress {
-    bar: ProgressBar,
-    shown: Instant,
-}
-
-impl Default for Progress {
-    /// Hidden if standard error is not a terminal.
-    fn default() -> Self {
-        let bar = ProgressBar::new(Self::PARTS as u64);
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent} %  {msg}  {eta} left") {
-            bar.set_style(style);
-        }
-        let shown = Instant::now();
-        Self { bar, shown }
-    }
-}
-
-impl Progress {
-    const PARTS: f64 = 1000.0;
-
-    /// Shows the share of the run that is done, and a message.
-    pub fn show(&mut self, share: f64, message: impl FnOnce() -> String) {
-        const WHILE: Duration = Duration::from_millis(150);
-        if !self.bar.is_hidden() && self.shown.elapsed() > WHILE {
-            self.bar.set_position((share * Self::PARTS) as u64);
-            self.bar.set_message(message());
-            self.shown = Instant::now();
-        }
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
     }
 }

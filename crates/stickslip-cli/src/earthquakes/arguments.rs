@@ -8,6 +8,7 @@ use stickslip::bie::{Cells, Sense};
 
 use super::YEAR;
 use crate::cli::{Problem as Failed, positive};
+use crate::output::Files;
 
 /// The largest number of cells in a row.
 const MOST: f64 = 1e6;
@@ -33,7 +34,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Method::RungeKutta)]
     pub method: Method,
     /// bp3: the dip [degrees], 60 by default; published are 30, 60 and 90
-    #[arg(long, value_name = "DEGREES", value_parser = positive)]
+    #[arg(long, value_name = "DEGREES", value_parser = dip)]
     pub dip: Option<f64>,
     /// bp3: the hanging wall moves up dip; the default
     #[arg(long, conflicts_with = "normal")]
@@ -50,9 +51,16 @@ pub struct Arguments {
     /// A folder for files in the format of the SEAS benchmarks; not for bp6
     #[arg(long, value_name = "DIR")]
     pub seas: Option<PathBuf>,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "out/earthquakes")]
-    pub out: PathBuf,
+    /// The folder and the digits of the files.
+    #[command(flatten)]
+    pub files: Files,
+}
+
+/// Reads a dip \[degrees\].
+fn dip(text: &str) -> Result<f64, String> {
+    let dip = positive(text)?;
+    let steepest = (dip <= 90.0).then_some(dip);
+    steepest.ok_or_else(|| "must be above 0 and at most 90".into())
 }
 
 /// Problems by name.

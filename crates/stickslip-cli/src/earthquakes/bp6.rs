@@ -16,6 +16,7 @@ use super::{Arguments, DAY, Failed, Station, state_for};
 use crate::cli::expect;
 use crate::output::{Output, digits};
 use crate::plot::{self, COLORS, Panel, Points};
+use crate::progress::Progress;
 
 /// The medium around the fault.
 pub const MEDIUM: Medium = Medium {
@@ -139,7 +140,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failed> {
 
 fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> Result<(), Failed> {
     const FILES: [&str; 3] = ["stations.csv", "stations.png", "summary.json"];
-    let output = Output::create(&arguments.out, &FILES)?;
+    let output = Output::create(&arguments.files, "earthquakes", &FILES)?;
     let mut watches = STATIONS.map(|z| Watch {
         station: Station::on_line(fault.cells(), z),
         rates: Points::new(),
@@ -150,11 +151,14 @@ fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> 
     let clock = Instant::now();
     // The injection ends on one of the days.
     let steps = arguments.steps().stopping_at(DAYS.map(|day| day * DAY));
+    let (end, mut progress) = (arguments.end(), Progress::default());
     let report = motion.run(&steps, |at| {
+        progress.at(at.time, end, at.max_slip_rate());
         for watch in &mut watches {
             watch.see(&at);
         }
     })?;
+    drop(progress);
     let seconds = clock.elapsed().as_secs_f64();
     let rows = watches.iter().flat_map(|watch| {
         let rows = watch.rates.iter().zip(&watch.slips);
@@ -164,12 +168,6 @@ fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> 
     });
     output.table(FILES[0], "depth,time,slip,log10_slip_rate", rows)?;
     draw(&output, FILES[1], &watches)?;
-    for watch in &watches {
-        println!("at {} m", watch.station.position[1]);
-        for (day, [slip, rate]) in DAYS.iter().zip(&watch.known) {
-            println!("  day {day:>4}: slip {slip:.5e} m, log10 V {rate:.4}");
-        }
-    }
     let stations: Vec<Value> = watches.iter().map(summary).collect();
     output.json(
         FILES[2],
@@ -184,14 +182,19 @@ fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> 
             "seconds": seconds,
         }),
     )?;
-    println!(
-        "{} cells, {} steps, {} taken back, {seconds:.1} s; {} in {}",
+    for watch in &watches {
+        say!("at {} m", watch.station.position[1])?;
+        for (day, [slip, rate]) in DAYS.iter().zip(&watch.known) {
+            say!("  day {day:>4}: slip {slip:.5e} m, log10 V {rate:.4}")?;
+        }
+    }
+    say!(
+        "{} cells, {} steps, {} taken back, {seconds:.1} s; {}",
         fault.cells().count(),
         report.accepted,
         report.rejected + report.failed,
-        FILES.join(", "),
-        output.folder().display()
-    );
+        output.told(&FILES)
+    )?;
     if arguments.is_accurate() && arguments.cell() <= 20.0 {
         for ((day, known), [slip, rate]) in DAYS.iter().zip(&watches[1].known).zip(REFERENCE) {
             expect(&format!("slip on day {day}"), known[0], slip, 0.01 * slip)?;

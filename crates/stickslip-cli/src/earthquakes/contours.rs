@@ -27,11 +27,11 @@ pub(super) fn draw(
     let drawn: Vec<_> = (first.into_iter().chain(largest))
         .map(|event| (event, fronts(cells, event, metres)))
         .collect();
-    let up = format!("up dip [{unit}]");
+    let axes = ["along strike", "down dip"].map(|name| format!("{name} [{unit}]"));
     let names: Vec<String> = (drawn.iter())
         .map(|(event, _)| {
             let years = event.onset / YEAR;
-            format!("along strike [{unit}]; rupture fronts of the event at {years:.2} years")
+            format!("rupture fronts of the event at {years:.2} years")
         })
         .collect();
     let mut panels: Vec<Panel<'_>> = Vec::new();
@@ -42,7 +42,7 @@ pub(super) fn draw(
                 .flat_map(|front| front.curves.iter().flatten())
         };
         let [width, height] = [extent(points().map(|p| p.0)), extent(points().map(|p| p.1))];
-        let mut panel = Panel::new(name, &up);
+        let mut panel = Panel::new(&axes[0], &axes[1]).titled(name).downward();
         if width > 0.0 && height > 0.0 {
             panel = panel.in_ratio(height / width);
         }
@@ -60,7 +60,7 @@ pub(super) fn draw(
         panels.push(panel);
     }
     if panels.is_empty() {
-        panels.push(Panel::new("no cell has ruptured", &up));
+        panels.push(Panel::new(&axes[0], &axes[1]).titled("no cell has ruptured"));
     }
     plot::draw(path, panels.as_slice())
 }

@@ -40,6 +40,7 @@ fn map<'a>(names: [&'a str; 3], field: &'a Field) -> Map<'a> {
         y: &field.y,
         values: &field.values,
         range: COLOURS,
+        downward: true,
     }
 }
 
@@ -113,7 +114,7 @@ impl Shots {
         } else {
             Vec::new()
         };
-        let names = ["along strike", "up dip"].map(|name| format!("{name} [{unit}]"));
+        let names = ["along strike", "down dip"].map(|name| format!("{name} [{unit}]"));
         let shots: Vec<&Shot> = shots.iter().chain(&present).collect();
         let fields: Vec<Field> = (shots.iter())
             .map(|(_, rates)| smooth(cells, rates, metres))

@@ -17,7 +17,7 @@ use super::plane_record::{EVENT, Record};
 use super::seas::{Places, files};
 use super::{Arguments, Failed, YEAR};
 use crate::output::Output;
-use crate::record::Progress;
+use crate::progress::Progress;
 
 /// Poisson's ratio.
 const POISSON_RATIO: f64 = 0.25;
@@ -168,7 +168,7 @@ impl Setting {
             "rupture.png",
             "summary.json",
         ];
-        let output = Output::create(&arguments.out, &FILES)?;
+        let output = Output::create(&arguments.files, "earthquakes", &FILES)?;
         let clock = Instant::now();
         let mut motion = RungeKutta::new(self.scene(fault)?)?;
         let setup = clock.elapsed().as_secs_f64();
@@ -215,26 +215,28 @@ impl Setting {
                 "seconds": seconds,
             }),
         )?;
-        println!(
+        say!(
             "{:>12} {:>14} {:>14} {:>12}",
-            "event years", "mean slip [m]", "area [km^2]", "log10 V"
-        );
+            "event years",
+            "mean slip [m]",
+            "area [km^2]",
+            "log10 V"
+        )?;
         for event in record.events.all() {
             let area = event.cells as f64 * fault.cells().area() / 1e6;
-            println!(
+            say!(
                 "{:>12.3} {:>14.4} {area:>14.5} {:>12.3}",
                 event.onset / YEAR,
                 event.mean_slip,
                 event.peak
-            );
+            )?;
         }
-        println!(
-            "{} cells, {taken} steps, {taken_back} taken back, {setup:.1} s before the first, {seconds:.1} s, {:.2} ms per step; {} in {}",
+        say!(
+            "{} cells, {taken} steps, {taken_back} taken back, {setup:.1} s before the first, {seconds:.1} s, {:.2} ms per step; {}",
             fault.cells().count(),
             1e3 * seconds / (taken + taken_back).max(1) as f64,
-            FILES.join(", "),
-            output.folder().display()
-        );
+            output.told(&FILES)
+        )?;
         Ok(record.events)
     }
 }

@@ -155,7 +155,7 @@ impl<'a> Record<'a> {
             rows,
         )?;
         let Setting { unit, labels, .. } = self.setting;
-        let [along, down] = ["along strike", "up dip"].map(|name| format!("{name} [{}]", unit.0));
+        let [along, down] = ["along strike", "down dip"].map(|name| format!("{name} [{}]", unit.0));
         let panel = self
             .profiles
             .draw(Panel::new(&along, "slip [m]"), *labels, |x, slip| {

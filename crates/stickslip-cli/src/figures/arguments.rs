@@ -1,11 +1,11 @@
 //! The command line of the figures.
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
 
 use clap::{Parser, ValueEnum};
 
-use crate::cli::count;
+use crate::cli::{Problem, count};
+use crate::output::{Files, Output};
 
 /// Figures of Pipping, Sander and Kornhuber, with their settings, and two of our own. Each is a CSV file, a PNG, an SVG
 /// and a summary.json in a folder by its name. Runs are kept in the folder `runs`: an interrupted figure continues, and
@@ -24,9 +24,9 @@ pub struct Arguments {
     /// Add the finest mesh of figure 6.1, 8 refinements; takes hours
     #[arg(long)]
     pub finest: bool,
-    /// The folder to write to [default: out/figures, or out/figures-quick]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    /// The folder, out/figures-quick for --quick by default, and the digits of the files.
+    #[command(flatten)]
+    files: Files,
 }
 
 /// A figure by its number in the paper, or one of our own.
@@ -78,14 +78,23 @@ impl Arguments {
         }
     }
 
-    /// The folder to write to.
-    pub fn folder(&self) -> &Path {
-        let default = if self.quick {
-            "out/figures-quick"
+    /// Where they are written to, and the name of the folder by default.
+    pub fn files(&self) -> (&Files, &'static str) {
+        let name = if self.quick {
+            "figures-quick"
         } else {
-            "out/figures"
+            "figures"
         };
-        self.out.as_deref().unwrap_or(Path::new(default))
+        (&self.files, name)
+    }
+
+    /// Opens the folder to write to.
+    ///
+    /// # Errors
+    /// It cannot be created.
+    pub fn output(&self) -> Result<Output, Problem> {
+        let (files, name) = self.files();
+        Output::create(files, name, &[])
     }
 
     /// The number of simultaneous runs.

@@ -93,7 +93,7 @@ pub(super) fn write(
         samples.map(|s| {
             let steps = outcome.experiment.steps.to_string();
             [
-                steps,
+                steps.into(),
                 digits(s.time),
                 digits(s.displacement),
                 digits(s.velocity),

@@ -70,11 +70,12 @@ fn draw(arguments: &Arguments, take: &Take<'_>) -> Result<(), Problem> {
             experiments.push(experiment);
         }
     }
-    let runs = arguments.folder().join("runs");
+    let all = arguments.output()?;
+    let runs = all.path("runs");
     let outcomes = queue::work_off(&experiments, &runs, arguments.threads(), take)?;
     let mut summaries = Map::new();
     for (name, drawing) in drawings {
-        let output = Output::create(&arguments.folder().join(&name), &[])?;
+        let output = all.within(&name)?;
         let of = |experiment: &Experiment| {
             let k = experiments.iter().position(|other| other == experiment);
             k.map(|k| outcomes[k].clone())
@@ -83,16 +84,16 @@ fn draw(arguments: &Arguments, take: &Take<'_>) -> Result<(), Problem> {
         let shown = shown.ok_or("a run is missing")?;
         let summary = drawing.draw(&output, &shown)?;
         output.json("summary.json", &summary)?;
-        println!("figure {name} in {}", output.folder().display());
+        say!("figure {name} in {}", output.folder().display())?;
         summaries.insert(name, summary);
     }
     // Of one figure its own numbers, of all of them each one's by its name.
-    let all = match summaries.len() {
+    let summary = match summaries.len() {
         1 => summaries
             .into_iter()
             .next()
             .map_or(Value::Null, |one| one.1),
         _ => Value::Object(summaries),
     };
-    Output::create(arguments.folder(), &[])?.json("summary.json", &all)
+    all.json("summary.json", &summary)
 }

@@ -113,7 +113,7 @@ impl Whole {
             all.set_style(style);
         }
         if done > 0 && bars.is_hidden() {
-            eprintln!("{done} runs are there already, {} to take", efforts.len());
+            note!("{done} runs are there already, {} to take", efforts.len());
         }
         Self {
             bars,
@@ -177,7 +177,7 @@ impl Whole {
         if self.bars.is_hidden() {
             let (percent, seconds) = (100.0 * done, took.as_secs_f64());
             let left = self.left(done);
-            eprintln!(
+            note!(
                 "{percent:3.0} %  {} in {seconds:.1} s, {left}",
                 experiment.name()
             );

@@ -34,6 +34,7 @@ impl Drawing for Rupture {
                 y: &rupture.x,
                 values: &rupture.slip_rates,
                 range: (1e-6, 1e-2),
+                downward: false,
             },
         )?;
         let rows = rupture.slip_rates.iter().enumerate().map(|(k, &rate)| {

@@ -52,7 +52,8 @@ impl Drawing for VelocityStep {
         let (mut rows, mut numbers) = (Vec::new(), Vec::new());
         for ((name, law), color) in laws.into_iter().zip([COLORS[3], COLORS[2]]) {
             let (points, ends) = Self::curve(law)?;
-            let row = |p: &(f64, f64)| [name.to_lowercase(), digits(1e-3 * p.0), digits(p.1)];
+            let row =
+                |p: &(f64, f64)| [name.to_lowercase().into(), digits(1e-3 * p.0), digits(p.1)];
             rows.extend(points.iter().map(row));
             numbers.push(json!({
                 "law": name.to_lowercase(),

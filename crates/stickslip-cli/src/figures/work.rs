@@ -86,9 +86,9 @@ impl Drawing for Work {
             rows.extend(of.iter().map(|o| {
                 let steps = o.experiment.steps.to_string();
                 [
-                    name.to_string(),
-                    steps,
-                    format!("{:.4}", o.seconds),
+                    (*name).into(),
+                    steps.into(),
+                    format!("{:.4}", o.seconds).into(),
                     digits(error(o)),
                 ]
             }));

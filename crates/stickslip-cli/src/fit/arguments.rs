@@ -6,19 +6,25 @@ use clap::{Parser, ValueEnum};
 use stickslip::lab::{Evolution, Loss, Parameter, Trend};
 
 use crate::cli::{finite, non_negative, positive};
+use crate::output::Files;
+use crate::table::Format;
 
 /// Fit a, b, L, mu0 and the stiffness to measured friction: velocity steps and holds, without a guess. Writes fits.csv,
 /// summary.json, and fit-N.csv and fit-N.png for each file and window.
 #[derive(Debug, Clone, Parser)]
 #[command(name = "fit")]
 pub struct Arguments {
-    /// Tables with a row per sample, separated by commas, semicolons or tabs; lines that begin with # are comments
+    /// Tables with a row per sample, as instruments and spreadsheets write them; separators, decimal commas, encodings,
+    /// preambles, units and comments are found
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// The columns, by names or numbers from 1 on: TIME,DISPLACEMENT,FRICTION, or TIME,FRICTION with --steps, or
     /// DISPLACEMENT,FRICTION with --steps-at
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub columns: Vec<String>,
+    /// How tables are read.
+    #[command(flatten)]
+    pub format: Format,
     /// The velocity of the load point [m/s] from each time [s] on, such as 0:1e-6,100:1e-5,150:0; the first one is the
     /// initial velocity
     #[arg(long, value_name = "TIME:VELOCITY,..", value_delimiter = ',', value_parser = pair, conflicts_with = "steps_at")]
@@ -67,10 +73,12 @@ pub struct Arguments {
     /// Fit the time [s] by which all velocity steps are later than --steps or the displacements say, too
     #[arg(long)]
     pub step_offset: bool,
-    /// Fix a parameter (a, b1, b2, L1, L2, mu0, step_offset), such as a=0.01; repeatable
+    /// Fix a parameter, such as a=0.01; repeatable. Parameters are a, b1, b2, L1, L2, k, mu0, trend, step_offset,
+    /// initial_stress, initial_state1 and initial_state2; b and L are those of the first state
     #[arg(long, value_name = "NAME=VALUE", value_parser = fixed)]
     pub fix: Vec<(Parameter, f64)>,
-    /// Keep a parameter between two values, such as L1=1e-6:1e-4; repeatable
+    /// Keep a parameter between two values, such as L1=1e-6:1e-4; repeatable. Parameters are a, b1, b2, L1, L2, k, mu0,
+    /// trend, step_offset, initial_stress, initial_state1 and initial_state2
     #[arg(long, value_name = "NAME=LOW:HIGH", value_parser = bounds)]
     pub bounds: Vec<(Parameter, f64, f64)>,
     /// Start from a value of a parameter, such as L1=5e-5; the other starts are computed from the curve; repeatable
@@ -79,9 +87,9 @@ pub struct Arguments {
     /// Write the peaks of slide-hold-slide and the healing rate to holds.csv, too
     #[arg(long)]
     pub holds: bool,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "out/fit")]
-    pub out: PathBuf,
+    /// The folder and the digits of the files.
+    #[command(flatten)]
+    pub output: Files,
 }
 
 /// The state laws.
@@ -183,13 +191,26 @@ fn named(text: &str) -> Result<(Parameter, &str), String> {
     Ok((parameter, value))
 }
 
+/// A value of a parameter, positive for a, L and k.
+fn of_sign(parameter: Parameter, value: f64) -> Result<f64, String> {
+    let positive = [Parameter::A, Parameter::Stiffness].contains(&parameter)
+        || matches!(parameter, Parameter::SlipDistance(_));
+    if positive && value <= 0.0 {
+        return Err(format!("{parameter} must be positive"));
+    }
+    Ok(value)
+}
+
 fn fixed(text: &str) -> Result<(Parameter, f64), String> {
     let (parameter, value) = named(text)?;
-    Ok((parameter, finite(value)?))
+    Ok((parameter, of_sign(parameter, finite(value)?)?))
 }
 
 fn bounds(text: &str) -> Result<(Parameter, f64, f64), String> {
     let (parameter, value) = named(text)?;
     let (low, high) = pair(value)?;
-    Ok((parameter, low, high))
+    if low > high {
+        return Err("must be LOW:HIGH, the low one first".into());
+    }
+    Ok((parameter, of_sign(parameter, low)?, high))
 }

@@ -1,7 +1,6 @@
 //! Fits of laboratory experiments: command line, tables and pictures.
 
 mod arguments;
-mod read;
 mod report;
 mod run;
 mod settings;

@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 use stickslip::lab::{Errors, Estimate, Fitted, Healing, LabError, Parameter};
 
-use super::settings::Job;
+use super::settings::{Job, Unread};
 use crate::cli::Problem;
-use crate::output::{Output, digits};
+use crate::output::{Cell, Output, digits};
 use crate::plot::{self, DARK, PALE, Panel};
 
 pub(super) const TABLE: &str = "fits.csv";
@@ -24,11 +24,12 @@ fn parameters(fits: &[Result<Fitted, LabError>]) -> Vec<Parameter> {
     found
 }
 
-/// Writes the batch table: a row per file and window.
+/// Writes the batch table: a row per file and window, and one per file that cannot be fitted.
 pub(super) fn table(
     output: &Output,
     jobs: &[Job],
     fits: &[Result<Fitted, LabError>],
+    unread: &[Unread],
 ) -> Result<(), Problem> {
     let parameters = parameters(fits);
     let mut columns = String::from("file,from,to,samples,laws");
@@ -39,33 +40,41 @@ pub(super) fn table(
     let rows = jobs.iter().zip(fits).map(|(job, fit)| {
         let times = job.record.times();
         let (from, to) = job.window.unwrap_or((times[0], times[times.len() - 1]));
-        let mut row = vec![
-            job.file.clone(),
+        let mut row: Vec<Cell> = vec![
+            job.file.as_str().into(),
             digits(from),
             digits(to),
-            times.len().to_string(),
+            times.len().to_string().into(),
         ];
         match fit {
             Ok(fitted) => {
-                row.push(fitted.laws.join("+"));
+                row.push(fitted.laws.join("+").into());
                 for &parameter in &parameters {
                     row.push(digits(fitted.value(parameter)));
                     row.push(digits(fitted.standard_error(parameter)));
                 }
                 let (difference, error) = fitted.a_minus_b;
                 row.extend([difference, error, fitted.rms, fitted.aic].map(digits));
-                let warnings: Vec<_> = fitted.warnings.iter().map(ToString::to_string).collect();
-                row.extend([warnings.join("; "), String::new()]);
+                let warnings = fitted.warnings.iter().map(ToString::to_string);
+                let warnings: Vec<_> = job.note().into_iter().chain(warnings).collect();
+                row.extend([warnings.join("; "), String::new()].map(Cell::from));
             }
             Err(error) => {
-                row.push(String::new());
-                row.extend(vec!["NaN".into(); 2 * parameters.len() + 4]);
-                row.extend([String::new(), error.to_string()]);
+                row.push("".into());
+                row.extend(vec![digits(f64::NAN); 2 * parameters.len() + 4]);
+                row.extend([String::new(), error.to_string()].map(Cell::from));
             }
         }
         row
     });
-    output.table(TABLE, &columns, rows)
+    let others = unread.iter().map(|unread| {
+        let mut row: Vec<Cell> = ["NaN", "NaN", "0", ""].map(Cell::from).into();
+        row.insert(0, unread.file.as_str().into());
+        row.extend(vec![digits(f64::NAN); 2 * parameters.len() + 4]);
+        row.extend(["", unread.error.as_str()].map(Cell::from));
+        row
+    });
+    output.table(TABLE, &columns, rows.chain(others))
 }
 
 /// A fit in JSON.
@@ -100,6 +109,7 @@ pub(super) fn summary(job: &Job, fit: &Result<Fitted, LabError>) -> Value {
         "file": job.file,
         "window": job.window,
         "samples": fitted.residuals.len(),
+        "dropped_rows": job.dropped,
         "laws": fitted.laws,
         "reference_velocity": fitted.parameters.reference_velocity,
         "stiffness": fitted.parameters.stiffness,
@@ -139,7 +149,7 @@ pub(super) fn curve(
     let (axis, unit, places) = if holds {
         ("time [s]", 1.0, times)
     } else {
-        ("load-point displacement [um]", 1e6, &displacements[..])
+        ("load-point displacement [µm]", 1e6, &displacements[..])
     };
     let points = |values: &[f64], factor: f64| -> plot::Points {
         let points = places.iter().zip(values);
@@ -147,15 +157,15 @@ pub(super) fn curve(
     };
     let panels = [
         Panel::new(axis, "coefficient of friction")
-            .with("data", PALE, 2, points(data, 1.0))
+            .with_points("data", PALE, points(data, 1.0))
             .with("fit", DARK, 3, points(&fitted.friction, 1.0)),
-        Panel::new(axis, "residual [1e-3]").with("", DARK, 2, points(&fitted.residuals, 1e3)),
+        Panel::new(axis, "residual [10⁻³]").with_points("", DARK, points(&fitted.residuals, 1e3)),
     ];
     plot::draw(&output.path(&format!("{name}.png")), &panels)
 }
 
-/// Prints the holds and their healing rate, and writes them.
-pub(super) fn healing(output: &Output, found: &[(String, Healing)]) -> Result<(), Problem> {
+/// Writes the holds.
+pub(super) fn write_holds(output: &Output, found: &[(String, Healing)]) -> Result<(), Problem> {
     let rows = found.iter().flat_map(|(file, healing)| {
         healing.holds.iter().map(move |hold| {
             let numbers = [
@@ -166,7 +176,7 @@ pub(super) fn healing(output: &Output, found: &[(String, Healing)]) -> Result<()
                 hold.peak,
                 hold.healing(),
             ];
-            let mut row = vec![file.clone()];
+            let mut row: Vec<Cell> = vec![file.as_str().into()];
             row.extend(numbers.map(digits));
             row
         })
@@ -175,17 +185,21 @@ pub(super) fn healing(output: &Output, found: &[(String, Healing)]) -> Result<()
         HOLDS,
         "file,start,duration,level,relaxed,peak,healing",
         rows,
-    )?;
+    )
+}
+
+/// Prints the holds and their healing rate.
+pub(super) fn print_holds(found: &[(String, Healing)]) -> Result<(), Problem> {
     for (file, healing) in found {
-        println!("{file}: {} holds", healing.holds.len());
+        say!("{file}: {} holds", healing.holds.len())?;
         for hold in &healing.holds {
-            println!(
+            say!(
                 "  {:10.4e} s: peak {:.5}, healing {:.5}, relaxation {:.5}",
                 hold.duration,
                 hold.peak,
                 hold.healing(),
                 hold.relaxation()
-            );
+            )?;
         }
         // Three holds have an error.
         let error = if healing.standard_error.is_finite() {
@@ -193,7 +207,7 @@ pub(super) fn healing(output: &Output, found: &[(String, Healing)]) -> Result<()
         } else {
             String::new()
         };
-        println!("  healing rate {:.5} per decade{error}", healing.rate);
+        say!("  healing rate {:.5} per decade{error}", healing.rate)?;
     }
     Ok(())
 }

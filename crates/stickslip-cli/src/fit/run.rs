@@ -8,8 +8,8 @@
 use stickslip::lab::Healing;
 
 use super::Arguments;
-use super::report::{HOLDS, SUMMARY, TABLE, curve, healing, summary, table};
-use super::settings::Job;
+use super::report::{HOLDS, SUMMARY, TABLE, curve, print_holds, summary, table, write_holds};
+use super::settings::Unread;
 use crate::cli::Problem;
 use crate::output::Output;
 
@@ -19,59 +19,78 @@ use crate::output::Output;
 /// In one line: a wrong setting or table, a fit that fails, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let laws = arguments.laws()?;
-    let jobs = arguments.jobs()?;
+    let (jobs, mut unread) = arguments.jobs()?;
     let fit = arguments.fit(&laws);
-    for job in &jobs {
-        (fit.validate(&job.record, &job.load))
-            .map_err(|error| format!("{}: {error}", job.name()))?;
+    let mut jobs = jobs;
+    jobs.retain(|job| match fit.validate(&job.record, &job.load) {
+        Ok(()) => true,
+        Err(error) => {
+            unread.push(Unread::of(job, &error));
+            false
+        }
+    });
+    let mut holds = Vec::new();
+    for job in jobs.iter().filter(|_| arguments.holds) {
+        match Healing::of(&job.record, &job.load) {
+            Ok(healing) => holds.push((job.name(), healing)),
+            Err(error) if arguments.files.len() == 1 => {
+                return Err(format!("{}: {error}", job.name()).into());
+            }
+            Err(error) => unread.push(Unread::of(job, &error)),
+        }
     }
-    let holds = if arguments.holds {
-        let of = |job: &Job| -> Result<(String, Healing), Problem> {
-            let healing = Healing::of(&job.record, &job.load);
-            Ok((
-                job.name(),
-                healing.map_err(|error| format!("{}: {error}", job.name()))?,
-            ))
-        };
-        jobs.iter().map(of).collect::<Result<Vec<_>, _>>()?
-    } else {
-        Vec::new()
-    };
-    let output = Output::create(&arguments.out, &[TABLE, SUMMARY])?;
+    if jobs.is_empty() || arguments.files.len() == 1 {
+        // Nothing is left to fit, or nothing else was asked for: no folder for an error alone.
+        if let Some(first) = unread.first() {
+            return Err(first.error.clone().into());
+        }
+    }
+    let output = Output::create(&arguments.output, "fit", &[TABLE, SUMMARY])?;
     let fits: Vec<_> = jobs
         .iter()
         .map(|job| fit.run(&job.record, &job.load))
         .collect();
     for (number, (job, fitted)) in jobs.iter().zip(&fits).enumerate() {
         if let Ok(fitted) = fitted {
-            if jobs.len() > 1 {
-                println!("\n{}. {}", number + 1, job.name());
-            }
-            println!("{fitted}");
             curve(&output, &format!("fit-{}", number + 1), job, fitted)?;
         }
     }
-    table(&output, &jobs, &fits)?;
+    table(&output, &jobs, &fits, &unread)?;
     let summaries = jobs.iter().zip(&fits).map(|(job, fit)| summary(job, fit));
-    output.json(SUMMARY, &summaries.collect::<Vec<_>>())?;
+    let others = unread.iter().map(Unread::summary);
+    output.json(SUMMARY, &summaries.chain(others).collect::<Vec<_>>())?;
     let mut written = vec![TABLE, SUMMARY, "fit-N.csv", "fit-N.png"];
     if arguments.holds {
-        println!();
-        healing(&output, &holds)?;
+        write_holds(&output, &holds)?;
         written.push(HOLDS);
     }
-    println!("{} in {}", written.join(", "), output.folder().display());
-    let failed: Vec<_> = (jobs.iter().zip(&fits))
-        .filter_map(|(job, fit)| Some((job.name(), fit.as_ref().err()?)))
+    for (number, (job, fitted)) in jobs.iter().zip(&fits).enumerate() {
+        if let Ok(fitted) = fitted {
+            if jobs.len() > 1 {
+                say!("\n{}. {}", number + 1, job.name())?;
+            }
+            say!("{fitted}")?;
+            if let Some(note) = job.note() {
+                say!("{note}")?;
+            }
+        }
+    }
+    if arguments.holds {
+        say!("")?;
+        print_holds(&holds)?;
+    }
+    say!("{}", output.told(&written))?;
+    let failed = (jobs.iter().zip(&fits))
+        .filter_map(|(job, fit)| Some(format!("{}: {}", job.name(), fit.as_ref().err()?)));
+    let failed: Vec<String> = failed
+        .chain(unread.iter().map(|unread| unread.error.clone()))
         .collect();
-    let count = fits.len();
+    let count = fits.len() + unread.len();
     match &failed[..] {
         [] => Ok(()),
-        [(name, error)] if count == 1 => Err(format!("{name}: {error}").into()),
-        [(name, error), ..] => Err(format!(
-            "{} of {count} fits failed, first {name}: {error}",
-            failed.len()
-        )
-        .into()),
+        [error] if count == 1 => Err(error.clone().into()),
+        [error, ..] => {
+            Err(format!("{} of {count} fits failed, first {error}", failed.len()).into())
+        }
     }
 }

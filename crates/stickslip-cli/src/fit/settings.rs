@@ -2,13 +2,38 @@
 
 use std::path::Path;
 
-use stickslip::lab::{Evolution, Fit, LoadHistory, Parameter, Record};
+use serde_json::{Value, json};
+use stickslip::lab::{Evolution, Fit, LabError, LoadHistory, Parameter, Record};
 
 use super::arguments::{Arguments, Stiffness};
-use super::read::Table;
 use crate::cli::Problem;
+use crate::table::{Columns, Table};
+
+/// A file that cannot be fitted.
+pub(super) struct Unread {
+    /// The file.
+    pub(super) file: String,
+    /// Why, in one line.
+    pub(super) error: String,
+}
+
+impl Unread {
+    /// A file or window that a fit refuses.
+    pub(super) fn of(job: &Job, error: &LabError) -> Self {
+        Self {
+            file: job.file.clone(),
+            error: format!("{}: {error}", job.name()),
+        }
+    }
+
+    /// Its part of the summary.
+    pub(super) fn summary(&self) -> Value {
+        json!({"file": self.file, "error": self.error})
+    }
+}
 
 /// A file or a window of it.
+#[derive(Clone)]
 pub(super) struct Job {
     /// The file.
     pub(super) file: String,
@@ -16,6 +41,8 @@ pub(super) struct Job {
     pub(super) window: Option<(f64, f64)>,
     pub(super) record: Record,
     pub(super) load: LoadHistory,
+    /// The rows of the file that were dropped for an empty cell.
+    pub(super) dropped: usize,
 }
 
 impl Job {
@@ -24,6 +51,15 @@ impl Job {
         match self.window {
             Some((from, to)) => format!("{} {from}:{to}", self.file),
             None => self.file.clone(),
+        }
+    }
+
+    /// A note of rows that were dropped.
+    pub(super) fn note(&self) -> Option<String> {
+        match self.dropped {
+            0 => None,
+            1 => Some("1 row with an empty cell was dropped".into()),
+            many => Some(format!("{many} rows with an empty cell were dropped")),
         }
     }
 }
@@ -70,52 +106,58 @@ impl Arguments {
         fit
     }
 
-    /// The files and their windows.
-    pub(super) fn jobs(&self) -> Result<Vec<Job>, Problem> {
+    /// The files and their windows, and the files that cannot be fitted.
+    pub(super) fn jobs(&self) -> Result<(Vec<Job>, Vec<Unread>), Problem> {
         for &(parameter, _) in &self.fix {
             if parameter == Parameter::Stiffness && self.stiffness != Stiffness::Free {
                 return Err("--fix k and --stiffness are given".into());
             }
         }
-        let mut jobs = Vec::new();
+        let (mut jobs, mut unread) = (Vec::new(), Vec::new());
         for file in &self.files {
-            let (record, load) = self.experiment(file).map_err(|error| {
-                let (file, error) = (file.display().to_string(), error.to_string());
-                let named = error.contains(&file);
-                if named {
-                    error
-                } else {
-                    format!("{file}: {error}")
-                }
-            })?;
-            let file = file.display().to_string();
-            if self.window.is_empty() {
-                jobs.push(Job {
-                    file: file.clone(),
-                    window: None,
-                    record: record.clone(),
-                    load: load.clone(),
-                });
-            }
-            for &(from, to) in &self.window {
-                let record = record.window(from, to);
-                if record.times().is_empty() {
-                    return Err(format!("{file} has no samples in --window {from}:{to}").into());
-                }
-                jobs.push(Job {
-                    file: file.clone(),
-                    window: Some((from, to)),
-                    record,
-                    load: load.clone(),
-                });
+            match self.jobs_of(file) {
+                Ok(of_file) => jobs.extend(of_file),
+                Err(error) => unread.push(Unread {
+                    file: file.display().to_string(),
+                    error: error.to_string(),
+                }),
             }
         }
-        Ok(jobs)
+        Ok((jobs, unread))
+    }
+
+    /// A file and its windows.
+    fn jobs_of(&self, path: &Path) -> Result<Vec<Job>, Problem> {
+        let file = path.display().to_string();
+        let whole = self.experiment(path).map_err(|error| {
+            let error = error.to_string();
+            let named = error.contains(&file);
+            if named {
+                error
+            } else {
+                format!("{file}: {error}")
+            }
+        })?;
+        if self.window.is_empty() {
+            return Ok(vec![whole]);
+        }
+        let window = |&(from, to): &(f64, f64)| {
+            let record = whole.record.window(from, to);
+            if record.times().is_empty() {
+                return Err(format!("{file} has no samples in --window {from}:{to}").into());
+            }
+            Ok(Job {
+                window: Some((from, to)),
+                record,
+                ..whole.clone()
+            })
+        };
+        self.window.iter().map(window).collect()
     }
 
     /// The record of a file and the history of its load point.
-    fn experiment(&self, file: &Path) -> Result<(Record, LoadHistory), Problem> {
-        let table = Table::read(file)?;
+    fn experiment(&self, file: &Path) -> Result<Job, Problem> {
+        let table = Table::read(file, &self.format)?;
         let defaults: &[&str] = if !self.steps_at.is_empty() {
             &["displacement", "friction"]
         } else if !self.steps.is_empty() && !table.has("displacement") {
@@ -128,14 +170,12 @@ impl Arguments {
         } else {
             self.columns.iter().map(String::as_str).collect()
         };
-        let columns: Result<Vec<Vec<f64>>, Problem> =
-            names.iter().map(|name| table.column(name)).collect();
-        let mut columns = columns?;
-        let weights = self
-            .weights
-            .as_deref()
-            .map(|name| table.column(name))
-            .transpose()?;
+        let wanted: Vec<&str> = names.into_iter().chain(self.weights.as_deref()).collect();
+        let Columns {
+            values: mut columns,
+            dropped,
+        } = table.columns(&wanted)?;
+        let weights = self.weights.as_ref().and_then(|_| columns.pop());
         let friction = columns.pop().unwrap_or_default();
         let displaced = |column: &[f64]| -> Vec<f64> {
             column.iter().map(|x| self.displacement_unit * x).collect()
@@ -173,6 +213,12 @@ impl Arguments {
         if let Some(weights) = weights {
             record = record.with_weights(weights)?;
         }
-        Ok((record, load))
+        Ok(Job {
+            file: file.display().to_string(),
+            window: None,
+            record,
+            load,
+            dropped,
+        })
     }
 }

@@ -13,6 +13,7 @@ use stickslip::problems::pipping_slider::{END, FRICTION, INITIAL_LOG_THETA, NORM
 
 use crate::cli::{Problem, count, finite, fraction, non_negative, poisson_ratio, positive};
 use crate::laws::{Friction, Law, Laws};
+use crate::output::Files;
 
 const MESH: &str = "examples/meshes/slider.msh";
 const DRIVEN: &str = "top";
@@ -35,7 +36,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     driven: Option<String>,
     /// A group of the boundary that is driven against the driven one, by the opposite velocity
-    #[arg(long, value_name = "NAME", requires = "driven")]
+    #[arg(long, value_name = "NAME")]
     pub opposite: Option<String>,
     /// A group of the boundary that is fixed; several times for several groups
     #[arg(long, value_name = "NAME")]
@@ -109,9 +110,9 @@ pub struct Arguments {
     /// The solver of the velocity problems
     #[arg(long, value_enum, default_value_t = Solver::Condensed)]
     pub solver: Solver,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "out/gmsh")]
-    pub out: PathBuf,
+    /// The folder and the digits of the files.
+    #[command(flatten)]
+    pub files: Files,
 }
 
 /// Solvers by name.
@@ -237,7 +238,7 @@ impl Arguments {
         if axis.iter().all(|x| x.is_finite()) {
             Ok(axis)
         } else {
-            Err("the direction of the compression has the length zero".into())
+            Err("--direction has the length zero".into())
         }
     }
 
@@ -262,7 +263,7 @@ impl Arguments {
         if along.norm() <= 1e-6 * size {
             match axis().filter(|_| self.compression.is_some()) {
                 Some(tangent) => along = tangent,
-                None => return Err("the direction is normal to the contact".into()),
+                None => return Err("--direction is normal to the contact, or zero".into()),
             }
         }
         Ok(along.normalize())
@@ -286,7 +287,8 @@ impl Arguments {
 fn vector<const D: usize>(what: &str, given: &[f64]) -> Result<SVector<f64, D>, Problem> {
     let found = given.len();
     if found != D {
-        return Err(format!("--{what}: {found} numbers for a mesh of {D} dimensions").into());
+        let s = if found == 1 { "" } else { "s" };
+        return Err(format!("--{what}: {found} number{s} for a mesh of {D} dimensions").into());
     }
     Ok(SVector::from_column_slice(given))
 }

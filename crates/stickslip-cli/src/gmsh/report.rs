@@ -13,6 +13,7 @@ use crate::cli::{Problem, expect};
 use crate::output::{Output, digits};
 use crate::plot::{self, DARK, Panel};
 use crate::probes::Probes;
+use crate::progress::Progress;
 use crate::slider::RECORDING;
 
 const HISTORY: &str = "history.csv";
@@ -60,7 +61,9 @@ pub(super) fn take<const D: usize>(
     });
     let plan = Steps::constant(END / arguments.steps() as f64);
     let (mut iterations, mut contraction) = (0, 0.0_f64);
-    let end = probes.run(simulation, &plan.until(arguments.end()), |at| {
+    let (last, mut progress) = (arguments.end(), Progress::default());
+    let bar = (&mut progress, last);
+    let end = probes.run(simulation, &plan.until(last), bar, |at| {
         iterations = iterations.max(at.report.reaction_iterations);
         contraction = contraction.max(at.report.contraction);
     });
@@ -114,7 +117,7 @@ fn warn_of_strain<const D: usize>(
         (vertices.iter()).fold(start, |end, x| end.zip_map(x, pick))
     };
     let size = end(f64::max, f64::NEG_INFINITY) - end(f64::min, f64::INFINITY);
-    eprintln!(
+    note!(
         "warning: the largest strain is {strain:.3}, at {:.4?} m, and linear elasticity is for small ones: Young's modulus \
          is {:e} Pa (--young-modulus), the mesh extends over {:.4?} m; is it in kilometres?",
         place.as_slice(),
@@ -132,7 +135,7 @@ pub(super) fn report<const D: usize>(
 ) -> Result<(), Problem> {
     warn_of_strain(arguments, space, run.strain);
     let (probes, iterations, contraction) = (run.probes, run.iterations, run.contraction);
-    let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
+    let output = Output::create(&arguments.files, "gmsh", &[HISTORY, PICTURE, SUMMARY])?;
     let (probe, cost) = (&probes.each[0], probes.cost);
     let rows = probe.rows.iter().map(|row| row.map(digits));
     output.table(
@@ -205,28 +208,27 @@ pub(super) fn report<const D: usize>(
             "failure": failure,
         }),
     )?;
-    println!(
+    say!(
         "{vertices} vertices, {cells} cells in {D} dimensions, {} steps to t = {:.5} s",
-        cost.steps, time
-    );
+        cost.steps,
+        time
+    )?;
     let slipped =
         |first: Option<&f64>| first.map_or("none".to_owned(), |time| format!("{time:.6} s"));
-    println!(
+    say!(
         "first slip of the contacts: {}, at x = {:.4?} m: {}; {} events there at t = {:.5?} s",
         slipped(anywhere.first()),
         place.as_slice(),
         slipped(first),
         events.len(),
         events
-    );
-    println!(
+    )?;
+    say!(
         "displacement there {:.6e} m, largest slip rate {:.4e} m/s; {milliseconds:.3} ms a step",
-        slid, cost.peak_slip_rate
-    );
-    println!(
-        "{HISTORY}, {PICTURE}, {SUMMARY} in {}",
-        output.folder().display()
-    );
+        slid,
+        cost.peak_slip_rate
+    )?;
+    say!("{}", output.told(&[HISTORY, PICTURE, SUMMARY]))?;
     run.end?;
     match first {
         // Of the mesh shipped: the paper's body of cells like these, converged in time.

@@ -31,11 +31,20 @@ use stickslip::{
 /// In one line: a wrong setting, a failed step, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     // In space if there are tetrahedra, else in the plane.
-    match gmsh::read::<3>(arguments.mesh()) {
+    let file = arguments.mesh();
+    let failed = |error: ReadError| {
+        let (name, message) = (file.display().to_string(), error.to_string());
+        if message.contains(&name) {
+            message
+        } else {
+            format!("{name}: {message}")
+        }
+    };
+    match gmsh::read::<3>(file) {
         Err(ReadError::Empty {
             what: "elements", ..
-        }) => slide(arguments, gmsh::read::<2>(arguments.mesh())?),
-        mesh => slide(arguments, mesh?),
+        }) => slide(arguments, gmsh::read::<2>(file).map_err(failed)?),
+        mesh => slide(arguments, mesh.map_err(failed)?),
     }
 }
 
@@ -101,14 +110,18 @@ fn driven<const D: usize>(
         let weight = down * (arguments.density * PippingSlider::default().gravity);
         scene = scene.with_load(body_force(space, |_| weight));
     }
-    for (name, sign) in [(Some(driven), 1.0), (opposite, -1.0)] {
+    let part = |option: &str, name: &str| {
+        (space.part(name)).map_err(|error| format!("--{option} {name}: {error}"))
+    };
+    let moved = [("driven", Some(driven), 1.0), ("opposite", opposite, -1.0)];
+    for (option, name, sign) in moved {
         if let Some(name) = name {
             let velocity = move |time: f64| (direction * (sign * load_velocity(time))).into();
-            scene = scene.prescribe_velocity(&space.part(name)?, [true; D], velocity);
+            scene = scene.prescribe_velocity(&part(option, name)?, [true; D], velocity);
         }
     }
     for name in &arguments.fixed {
-        scene = scene.fix(&space.part(name)?, [true; D]);
+        scene = scene.fix(&part("fixed", name)?, [true; D]);
     }
     Ok(scene.in_equilibrium(Cholesky::new()))
 }

@@ -5,10 +5,9 @@ mod run;
 use crate::onsets::Onsets;
 pub use run::run;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 
 use crate::cli::{Problem, count, expect};
-use crate::output::{Output, digits};
+use crate::output::{Files, Output, digits};
 use crate::plot::{self, DARK, PALE, Panel};
 use crate::record::Record;
 use clap::{Parser, ValueEnum};
@@ -37,9 +36,9 @@ pub struct Arguments {
     /// Time steps of the exact solution per transit time of a wave through the layer, 16 ms
     #[arg(long, value_name = "N", default_value = "1600", value_parser = count)]
     pub transit_steps: NonZeroUsize,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "out/layer")]
-    out: PathBuf,
+    /// The folder and the digits of the files.
+    #[command(flatten)]
+    pub files: Files,
 }
 
 /// The state law.
@@ -126,7 +125,11 @@ impl Exact {
 
 /// Writes and prints both solutions; fails if the first events are further apart than methods of second order allow.
 pub fn report(arguments: &Arguments, run: Record, exact: &Exact) -> Result<(), Problem> {
-    let output = Output::create(&arguments.out, &[HISTORY, EXACT, PICTURE, SUMMARY])?;
+    let output = Output::create(
+        &arguments.files,
+        "layer",
+        &[HISTORY, EXACT, PICTURE, SUMMARY],
+    )?;
     run.write_history(&output, HISTORY, |alpha| alpha)?;
     let digits = |s: &ExactSample| [s.time, s.displacement, s.slip_rate].map(digits);
     let samples = exact.samples.iter().map(digits);
@@ -157,40 +160,40 @@ pub fn report(arguments: &Arguments, run: Record, exact: &Exact) -> Result<(), P
     )?;
     plot::draw(&output.path(PICTURE), &panels(&run, exact))?;
 
-    println!(
+    say!(
         "{:<28}{:>16}{:>16}{:>14}",
-        "", "computed", "exact", "difference"
-    );
+        "",
+        "computed",
+        "exact",
+        "difference"
+    )?;
     let print = |what: &str, values: [Option<f64>; 2]| {
         let [computed, exact] = values.map(|x| x.map_or("none".into(), |x| format!("{x:.6}")));
         let difference = values[0]
             .zip(values[1])
             .map(|(computed, exact)| computed - exact);
         let difference = difference.map_or(String::new(), |x| format!("{x:+.2e}"));
-        println!("{what:<28}{computed:>16}{exact:>16}{difference:>14}");
+        say!("{what:<28}{computed:>16}{exact:>16}{difference:>14}")
     };
-    print("first slip [s]", slips);
+    print("first slip [s]", slips)?;
     for k in 0..events[0].len().max(events[1].len()) {
         print(
             &format!("event {} [s]", k + 1),
             events.map(|times| times.get(k).copied()),
-        );
+        )?;
     }
     let ends = [run.displacement_end, exact.displacement_end];
-    print("displacement [mm]", ends.map(|u| Some(1e3 * u)));
+    print("displacement [mm]", ends.map(|u| Some(1e3 * u)))?;
     let peaks = [cost.peak_slip_rate, exact.peak_slip_rate];
-    print("largest slip rate [mm/s]", peaks.map(|v| Some(1e3 * v)));
-    println!(
+    print("largest slip rate [mm/s]", peaks.map(|v| Some(1e3 * v)))?;
+    say!(
         "{} steps, {:.3} ms each; coupling iterations a step: average {:.3}, maximum {}",
         cost.steps,
         run.milliseconds_per_step(),
         cost.per_step(cost.velocity_problems),
         cost.velocity_problems.most
-    );
-    println!(
-        "{HISTORY}, {EXACT}, {PICTURE}, {SUMMARY} in {}",
-        output.folder().display()
-    );
+    )?;
+    say!("{}", output.told(&[HISTORY, EXACT, PICTURE, SUMMARY]))?;
     if let Some(failure) = run.failure {
         return Err(failure.into());
     }

@@ -10,6 +10,7 @@
 
 use super::{Arguments, EVENT, Exact, SLIP, report};
 use crate::cli::Problem;
+use crate::progress::Progress;
 use crate::record::{Record, Recording};
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::antiplane_layer::{
@@ -41,9 +42,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
 
     let mut exact = Exact::new(arguments);
     let law = arguments.law.evolution();
+    let mut progress = Progress::default();
     layer.exact(&LAW, &law, initial, arguments.transit_steps.get(), |at| {
+        progress.at(at.time, END, at.slip_rate);
         exact.add(at);
     })?;
+    drop(progress);
     let recording = Recording {
         vertex: base.vertices()[0],
         every: arguments.every.get(),

@@ -5,12 +5,15 @@ use std::ops::Range;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 
+use super::label::{MINUS, raised, rounded, scientific};
+use super::ticks::{logarithmic_ticks, multiples, step};
+
 /// The largest number of decades below the largest value on a logarithmic axis.
 const DECADES: f64 = 16.0;
 /// The margin beside the values, as a share of the axis.
 const MARGIN: f64 = 0.03;
-/// The largest number of ticks.
-const TICKS: usize = 9;
+/// The share of the axis by which it is longer than its values, to end at a tick.
+const SHORT: f64 = 0.02;
 
 /// An axis: positions on it are values, or their decimal logarithms.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +22,8 @@ pub(super) struct Axis {
     pub(super) ticks: Vec<f64>,
     logarithmic: bool,
     decimals: usize,
+    /// Whether labels grow downwards, as those of a depth.
+    downward: bool,
 }
 
 impl Axis {
@@ -42,15 +47,40 @@ impl Axis {
             (low, high) = (low - least, high + least);
         }
         let room = if tight { 0.0 } else { MARGIN * (high - low) };
-        let range = low - room..high + room;
+        let mut range = low - room..high + room;
         // Whole numbers alone have no ticks between.
-        let (ticks, decimals) = ticks(&range, logarithmic, counts);
+        let step = step(&range, logarithmic, counts);
+        if !logarithmic {
+            let reach = SHORT * (range.end - range.start);
+            let outer = (
+                (range.start / step).floor() * step,
+                (range.end / step).ceil() * step,
+            );
+            if range.start - outer.0 <= reach {
+                range.start = outer.0;
+            }
+            if outer.1 - range.end <= reach {
+                range.end = outer.1;
+            }
+        }
+        let ticks = if logarithmic {
+            logarithmic_ticks(&range, step)
+        } else {
+            multiples(&range, step)
+        };
         Self {
             range,
             ticks,
             logarithmic,
-            decimals,
+            decimals: (-step.log10().floor()).clamp(0.0, 300.0) as usize,
+            downward: false,
         }
+    }
+
+    /// The axis of a depth, whose values are its negatives: labels are positive and grow downwards.
+    pub(super) fn downward(mut self, downward: bool) -> Self {
+        self.downward = downward;
+        self
     }
 
     /// The position of a value; `None` outside the axis.
@@ -64,17 +94,20 @@ impl Axis {
         (place.is_finite() && !value.is_nan()).then_some(place)
     }
 
-    /// The label of a tick.
+    /// The label of a tick: with a minus of its own, and powers of ten as such.
     pub(super) fn label(&self, tick: f64) -> String {
+        let tick = if self.downward { -tick } else { tick };
+        // No signed zero.
+        let tick = tick + 0.0;
         let large = tick.abs() >= 1e5;
-        if self.logarithmic && tick.fract() == 0.0 {
-            format!("1e{tick:.0}")
+        if self.logarithmic && self.ticks.iter().all(|tick| tick.fract() == 0.0) {
+            format!("10{}", raised(tick as i32))
         } else if self.logarithmic {
-            format!("{:.0e}", 10_f64.powf(tick))
+            rounded(10_f64.powf(tick))
         } else if large || self.decimals > 5 {
-            format!("{tick:.*e}", 1)
+            scientific(tick, 1)
         } else {
-            format!("{tick:.*}", self.decimals)
+            format!("{tick:.*}", self.decimals).replace('-', MINUS)
         }
     }
 }
@@ -117,34 +150,57 @@ impl Ranged for Coordinates {
     }
 }
 
-/// Ticks at round numbers, and the decimals that these need.
-fn ticks(range: &Range<f64>, logarithmic: bool, counts: bool) -> (Vec<f64>, usize) {
-    let length = range.end - range.start;
-    if logarithmic && length < 2.0 {
-        let decades = range.start.floor() as i32..=range.end.ceil() as i32;
-        let round =
-            |decade: i32| [1.0, 2.0, 5.0].map(|digit: f64| f64::from(decade) + digit.log10());
-        let places = decades.flat_map(round);
-        return (places.filter(|place| range.contains(place)).collect(), 0);
-    }
-    let mut step = 10_f64.powf((length / TICKS as f64).log10().floor());
-    let fits = |step: f64| length / step <= TICKS as f64;
-    step *= [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .find(|digit| fits(step * digit))
-        .unwrap_or(10.0);
-    if logarithmic || counts {
-        step = step.max(1.0).round();
-    }
-    let first = (range.start / step).ceil() as i64;
-    let last = (range.end / step).floor() as i64;
-    let decimals = (-step.log10().floor()).clamp(0.0, 300.0) as usize;
-    ((first..=last).map(|k| k as f64 * step).collect(), decimals)
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::ticks::TICKS;
     use super::*;
+
+    /// The number of a label.
+    fn read(label: &str) -> f64 {
+        let (mantissa, exponent) = label.split_once("·10").unwrap_or((label, ""));
+        let digit = |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|other| other == c);
+        let exponent: String = exponent
+            .chars()
+            .map(|c| digit(c).map_or("-".into(), |digit| digit.to_string()))
+            .collect();
+        let mantissa = mantissa.replace(MINUS, "-");
+        let exponent = if exponent.is_empty() { "0" } else { &exponent };
+        format!("{mantissa}e{exponent}").parse().unwrap_or(f64::NAN)
+    }
+
+    /// However narrow its range, a logarithmic axis has three ticks, which read as their values.
+    #[test]
+    fn logarithmic_axes_have_three_ticks() {
+        for (low, high) in [
+            (0.3, 1.4),
+            (1e-3, 2e-3),
+            (6.1e-5, 7.3e-5),
+            (0.3, 80.0),
+            (990.0, 1010.0),
+        ] {
+            let axis = Axis::new([low, high].into_iter(), true, true);
+            assert!((3..=TICKS + 2).contains(&axis.ticks.len()), "{axis:?}");
+            for &tick in &axis.ticks {
+                let (shown, value) = (read(&axis.label(tick)), 10_f64.powf(tick));
+                assert!((shown / value - 1.0).abs() < 6e-3, "{shown} {value}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_axis_that_begins_just_above_zero_has_zero() {
+        let axis = Axis::new([1.5e-3, 15.0].into_iter(), false, true);
+        assert_eq!((axis.range.start, axis.ticks[0]), (0.0, 0.0));
+    }
+
+    #[test]
+    fn depths_are_positive_downwards() {
+        let axis = Axis::new([-24.0, 0.0].into_iter(), false, true).downward(true);
+        let labels: Vec<_> = axis.ticks.iter().map(|&tick| axis.label(tick)).collect();
+        assert_eq!(labels, ["20", "15", "10", "5", "0"]);
+        let axis = Axis::new([-2.0, 0.0].into_iter(), false, true);
+        assert_eq!(axis.label(axis.ticks[0]), "\u{2212}2");
+    }
 
     #[test]
     fn ticks_are_round_and_few() {
@@ -152,8 +208,7 @@ mod tests {
             let axis = Axis::new([low, high].into_iter(), false, true);
             assert!((3..=TICKS + 1).contains(&axis.ticks.len()), "{axis:?}");
             for tick in &axis.ticks {
-                assert!((low..=high).contains(tick), "{axis:?}");
-                let shown: f64 = axis.label(*tick).parse().unwrap_or(f64::NAN);
+                let shown = read(&axis.label(*tick));
                 assert!((shown - tick).abs() < 1e-9 * high, "{shown} {tick}");
             }
         }
@@ -169,7 +224,7 @@ mod tests {
     fn decades_are_ticks() {
         let axis = Axis::new([3e-7, 0.0, 2e-2].into_iter(), true, true);
         let labels: Vec<_> = axis.ticks.iter().map(|&tick| axis.label(tick)).collect();
-        assert_eq!(labels, ["1e-6", "1e-5", "1e-4", "1e-3", "1e-2"]);
+        assert_eq!(labels, ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"]);
         // What is less than the axis shows lies at its end.
         assert_eq!(axis.place(1e-30), Some(axis.range.start));
         assert_eq!(axis.place(f64::NAN), None);

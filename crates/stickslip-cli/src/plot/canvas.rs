@@ -1,15 +1,16 @@
 //! The files that pictures are drawn into.
 
 use std::fmt::Display;
-use std::fs;
 use std::path::Path;
 
-use image::{Rgb, RgbImage};
+use image::codecs::png::PngEncoder;
+use image::{ColorType, ImageEncoder, Rgb, RgbImage};
 use plotters::prelude::*;
 use plotters::style::register_font;
 
 use super::Draw;
 use crate::cli::Problem;
+use crate::output::write_whole;
 
 /// The factor by which pictures are drawn larger than they are: coordinates are whole numbers, and pixel edges become
 /// soft only when the picture is scaled down.
@@ -30,7 +31,10 @@ pub(super) fn png<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem
         area.present().map_err(|error| failed(&error))?;
     }
     let smaller = RgbImage::from_fn(width, height, |x, y| mean(&pixels, x, y));
-    Ok(smaller.save(path).map_err(|error| failed(&error))?)
+    write_whole(path, |file| {
+        let encoder = PngEncoder::new(file);
+        Ok(encoder.write_image(&smaller, width, height, ColorType::Rgb8)?)
+    })
 }
 
 /// The mean of the pixels behind one pixel of the picture.
@@ -64,7 +68,7 @@ pub(super) fn svg<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem
     let true_to_scale = format!("width=\"{width}\" height=\"{height}\"");
     let rounded = "stroke-linejoin=\"round\" stroke-linecap=\"round\"";
     let text = text.replacen(&large, &format!("{true_to_scale} {rounded}"), 1);
-    Ok(fs::write(path, text).map_err(|error| failed(&error))?)
+    write_whole(path, |file| Ok(file.write_all(text.as_bytes())?))
 }
 
 fn prepare() -> Result<(), Problem> {

@@ -1,9 +1,12 @@
 //! Legends with the names of curves, above the axes or beside them.
 
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::IntoTextStyle;
 
 use super::canvas::SCALE;
+use super::curve::Look;
+use super::panel::DASHES;
 use super::{Area, Drawn, letters};
 
 /// A name and the look of its curve.
@@ -11,7 +14,8 @@ pub(super) struct Entry<'a> {
     pub(super) label: &'a str,
     pub(super) color: RGBColor,
     pub(super) width: u32,
-    pub(super) dots: bool,
+    pub(super) look: Look,
+    pub(super) dashed: bool,
 }
 
 /// The height of a legend above the axes, and the width of one beside them.
@@ -57,8 +61,18 @@ fn draw<DB: DrawingBackend>(
 ) -> Result<u32, DrawingAreaErrorKind<DB::ErrorType>> {
     let place = |x: u32| ((left + x * SCALE) as i32, y as i32);
     let line = entry.color.stroke_width(entry.width * SCALE);
-    area.draw(&PathElement::new([place(0), place(DASH)], line))?;
-    if entry.dots {
+    let ends = [place(0), place(DASH)];
+    if entry.look == Look::Points {
+        let dots =
+            [0, DASH / 2, DASH].map(|x| Circle::new(place(x), 3 * SCALE, entry.color.filled()));
+        dots.iter().try_for_each(|dot| area.draw(dot))?;
+    } else if entry.dashed {
+        let (dash, gap) = (DASHES.0 * SCALE, DASHES.1 * SCALE);
+        area.draw(&DashedPathElement::new(ends, dash, gap, line))?;
+    } else {
+        area.draw(&PathElement::new(ends, line))?;
+    }
+    if entry.look == Look::Dotted {
         let size = (3 + entry.width) * SCALE;
         area.draw(&Circle::new(place(DASH / 2), size, entry.color.filled()))?;
     }

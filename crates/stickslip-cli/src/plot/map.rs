@@ -20,12 +20,15 @@ pub struct Map<'a> {
     pub values: &'a [f64],
     /// The field at the ends of the colours; values beyond have the last one.
     pub range: (f64, f64),
+    /// Whether the second coordinate is the negative of a depth, which is shown.
+    pub downward: bool,
 }
 
 /// The part of the picture by which neighbours overlap.
 const SEAM: f64 = 2000.0;
-/// The number of stripes between two neighbours in `y`, with a linear logarithm.
-const STRIPES: usize = 6;
+/// The number of stripes, and of those between two neighbours in `y` at most, with a linear logarithm.
+const STRIPES: usize = 240;
+const BETWEEN: usize = 6;
 
 impl Map<'_> {
     /// A stripe of one level at a time: from, to, level.
@@ -52,8 +55,17 @@ impl Draw for Map<'_> {
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, _pixels: bool) -> Drawn<DB> {
         let (field, beside) = area.split_horizontally(area.dim_in_pixel().0 - key::WIDTH * SCALE);
+        self.draw_field(&field)?;
+        key::draw(&beside, self.names[2], self.range)
+    }
+}
+
+impl Map<'_> {
+    /// Draws the field without the key of its colours.
+    pub(super) fn draw_field<DB: DrawingBackend>(&self, field: &Area<DB>) -> Drawn<DB> {
         let [x, y] = [self.x, self.y].map(|values| Axis::new(values.iter().copied(), false, true));
-        let mut chart = ChartBuilder::on(&field)
+        let y = y.downward(self.downward);
+        let mut chart = ChartBuilder::on(field)
             .margin(24 * SCALE)
             .x_label_area_size(84 * SCALE)
             .y_label_area_size(110 * SCALE)
@@ -63,13 +75,27 @@ impl Draw for Map<'_> {
             let Range { start, end } = axis.range;
             (place + (end - start) / SEAM).min(end)
         };
-        for k in 0..self.y.len().saturating_sub(1) {
-            for stripe in 0..STRIPES {
+        let rows = self.y.len().saturating_sub(1);
+        let stripes = (STRIPES / rows.max(1)).clamp(1, BETWEEN);
+        for k in 0..rows {
+            for stripe in 0..stripes {
                 let [from, middle, to] =
-                    [0.0, 0.5, 1.0].map(|part| (stripe as f64 + part) / STRIPES as f64);
-                let place = |part: f64| self.y[k] + (self.y[k + 1] - self.y[k]) * part;
+                    [0.0, 0.5, 1.0].map(|part| (stripe as f64 + part) / stripes as f64);
+                // The outermost values last to the ends of the axes.
+                let place = |part: f64| match part {
+                    0.0 if k == 0 => y.range.start,
+                    1.0 if k + 2 == self.y.len() => y.range.end,
+                    _ => self.y[k] + (self.y[k + 1] - self.y[k]) * part,
+                };
+                let (first, last) = (self.x.first().copied(), self.x.last().copied());
                 let runs = self.runs(k, middle).into_iter();
                 chart.draw_series(runs.map(|(start, end, level)| {
+                    let start = if Some(start) == first {
+                        x.range.start
+                    } else {
+                        start
+                    };
+                    let end = if Some(end) == last { x.range.end } else { end };
                     let corners = [(start, place(from)), (over(end, &x), over(place(to), &y))];
                     Rectangle::new(corners, key::color(level).filled())
                 }))?;
@@ -86,7 +112,6 @@ impl Draw for Map<'_> {
             .label_style(letters(26))
             .x_label_formatter(&|tick| x.label(*tick))
             .y_label_formatter(&|tick| y.label(*tick))
-            .draw()?;
-        key::draw(&beside, self.names[2], self.range)
+            .draw()
     }
 }

@@ -4,11 +4,14 @@ mod axis;
 mod canvas;
 mod curve;
 mod key;
+mod label;
 mod legend;
 mod map;
 mod panel;
 mod scatter;
 mod sheet;
+mod thinned;
+mod ticks;
 
 use std::path::Path;
 
@@ -59,9 +62,13 @@ pub fn shade(share: f64) -> RGBColor {
 type Area<DB> = DrawingArea<DB, Shift>;
 type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
-/// Draws into a PNG file.
+/// Draws into the file `name.png`, and into `name.svg` beside it.
+///
+/// # Errors
+/// A file cannot be written.
 pub fn draw<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem> {
-    canvas::png(path, what)
+    canvas::png(path, what)?;
+    canvas::svg(&path.with_extension("svg"), what)
 }
 
 /// Draws into the files `name.png` and `name.svg` of a folder.

@@ -1,11 +1,13 @@
 //! Curves over one pair of axes.
 
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
 use super::axis::Axis;
 use super::canvas::SCALE;
-use super::curve::thinned;
+use super::curve::{Curve, Look, covering};
 use super::legend::{self, Entry};
+use super::thinned::thinned;
 use super::{Area, Drawn, Points, letters};
 
 /// Curves over one pair of axes.
@@ -15,14 +17,9 @@ pub struct Panel<'a> {
     curves: Vec<Curve<'a>>,
     /// The width and height of the axes in pixels, if they have a shape.
     shape: Option<(u32, u32)>,
-}
-
-struct Curve<'a> {
-    label: &'a str,
-    color: RGBColor,
-    width: u32,
-    dots: bool,
-    points: Points,
+    title: &'a str,
+    /// Whether the vertical axis shows a depth, whose negatives it has.
+    downward: bool,
 }
 
 /// The columns of a picture, for curves with more points than it can resolve.
@@ -30,9 +27,13 @@ const COLUMNS: f64 = 1500.0;
 /// The margins of the axes, the labels beside them, and the width that is left for them.
 const MARGIN: u32 = 24;
 const RIGHT: u32 = 48;
+const TITLE: u32 = 40;
 const X_LABELS: u32 = 84;
 const Y_LABELS: u32 = 140;
 const WIDTH: u32 = 1600 - MARGIN - Y_LABELS - RIGHT;
+/// The radius of a point, and the lengths of dashes and gaps.
+const DOT: u32 = 2;
+pub(super) const DASHES: (u32, u32) = (14, 10);
 /// The largest height of axes with a shape.
 const TALLEST: f64 = 700.0;
 
@@ -44,6 +45,8 @@ impl<'a> Panel<'a> {
             logarithmic: [false; 2],
             curves: Vec::new(),
             shape: None,
+            title: "",
+            downward: false,
         }
     }
 
@@ -77,7 +80,7 @@ impl<'a> Panel<'a> {
             label,
             color,
             width,
-            dots: false,
+            look: Look::Line,
             points,
         });
         self
@@ -88,24 +91,51 @@ impl<'a> Panel<'a> {
     pub fn with_dots(mut self, label: &'a str, color: RGBColor, points: Points) -> Self {
         self = self.with(label, color, 3, points);
         if let Some(curve) = self.curves.last_mut() {
-            curve.dots = true;
+            curve.look = Look::Dotted;
         }
+        self
+    }
+
+    /// Adds data: points without a line.
+    #[must_use]
+    pub fn with_points(mut self, label: &'a str, color: RGBColor, points: Points) -> Self {
+        self = self.with(label, color, 1, points);
+        if let Some(curve) = self.curves.last_mut() {
+            curve.look = Look::Points;
+        }
+        self
+    }
+
+    /// Adds a title above the axes.
+    #[must_use]
+    pub fn titled(mut self, title: &'a str) -> Self {
+        self.title = title;
+        self
+    }
+
+    /// Shows depths, whose negatives the vertical axis has: positive and downwards.
+    #[must_use]
+    pub fn downward(mut self) -> Self {
+        self.downward = true;
         self
     }
 
     /// Whether there are dots: few points that a legend must not cover.
     fn has_dots(&self) -> bool {
-        self.curves.iter().any(|curve| curve.dots)
+        self.curves.iter().any(|curve| curve.look == Look::Dotted)
     }
 
     /// The names of the named curves.
     fn entries(&self) -> Vec<Entry<'_>> {
-        let named = self.curves.iter().filter(|curve| !curve.label.is_empty());
-        let entries = named.map(|curve| Entry {
+        let covering = covering(&self.curves, self.logarithmic[1]);
+        let all = self.curves.iter().enumerate();
+        let named = all.filter(|(_, curve)| !curve.label.is_empty());
+        let entries = named.map(|(k, curve)| Entry {
             label: curve.label,
             color: curve.color,
             width: curve.width,
-            dots: curve.dots,
+            look: curve.look,
+            dashed: covering[k],
         });
         entries.collect()
     }
@@ -113,13 +143,15 @@ impl<'a> Panel<'a> {
     /// In pixels: that of the axes, or of the names beside them.
     pub(super) fn height(&self) -> u32 {
         const AXES: u32 = 620;
-        if let Some((_, height)) = self.shape {
+        let title = if self.title.is_empty() { 0 } else { TITLE };
+        let axes = if let Some((_, height)) = self.shape {
             height + 2 * MARGIN + X_LABELS + legend::HEIGHT
         } else if self.has_dots() {
             AXES.max(legend::height(self.entries().len()))
         } else {
             AXES
-        }
+        };
+        title + axes
     }
 
     fn is_used(value: f64, logarithmic: bool) -> bool {
@@ -132,7 +164,7 @@ impl<'a> Panel<'a> {
         let shown = points().filter(|p| Self::is_used(p.0, xs) && Self::is_used(p.1, ys));
         let tight = !self.has_dots();
         let x = Axis::new(shown.clone().map(|p| p.0.abs_if(xs)), xs, tight);
-        let y = Axis::new(shown.map(|p| p.1.abs_if(ys)), ys, false);
+        let y = Axis::new(shown.map(|p| p.1.abs_if(ys)), ys, false).downward(self.downward);
         let curves: Vec<Points> = (self.curves.iter())
             .map(|curve| {
                 let places = curve
@@ -140,7 +172,7 @@ impl<'a> Panel<'a> {
                     .iter()
                     .filter_map(|p| Some((x.place(p.0.abs_if(xs))?, y.place(p.1.abs_if(ys))?)));
                 let places: Points = places.collect();
-                if curve.dots {
+                if curve.look == Look::Dotted {
                     places
                 } else {
                     thinned(&places, COLUMNS)
@@ -148,7 +180,16 @@ impl<'a> Panel<'a> {
             })
             .collect();
 
+        let covering = covering(&self.curves, self.logarithmic[1]);
         let (width, entries) = (area.dim_in_pixel().0, self.entries());
+        let area = &if self.title.is_empty() {
+            area.clone()
+        } else {
+            let (above, axes) = area.split_vertically(TITLE * SCALE);
+            let left = ((MARGIN + Y_LABELS) as i32 * SCALE as i32, 10 * SCALE as i32);
+            area.draw_text(self.title, &letters(28).into_text_style(&above), left)?;
+            axes
+        };
         let area = if entries.is_empty() {
             area.clone()
         } else if self.has_dots() {
@@ -179,8 +220,19 @@ impl<'a> Panel<'a> {
             .x_label_formatter(&|tick| x.label(*tick))
             .y_label_formatter(&|tick| y.label(*tick))
             .draw()?;
-        for (curve, points) in self.curves.iter().zip(&curves) {
+        for (k, (curve, points)) in self.curves.iter().zip(&curves).enumerate() {
+            if curve.look == Look::Points {
+                let dot = |&p: &(f64, f64)| Circle::new(p, DOT * SCALE, curve.color.filled());
+                chart.draw_series(points.iter().map(dot))?;
+                continue;
+            }
             let style = curve.color.stroke_width(curve.width * SCALE);
+            if covering[k] {
+                let (dash, gap) = (DASHES.0 * SCALE, DASHES.1 * SCALE);
+                let dashes = DashedPathElement::new(points.iter().copied(), dash, gap, style);
+                chart.draw_series([dashes])?;
+                continue;
+            }
             if pixels {
                 // Mitred joints become spikes at sharp turns.
                 let joint =
@@ -190,7 +242,7 @@ impl<'a> Panel<'a> {
             let pieces = pieces(points, pixels).into_iter();
             let path = |piece: &[(f64, f64)]| PathElement::new(piece.to_vec(), style);
             chart.draw_series(pieces.map(path))?;
-            if curve.dots {
+            if curve.look == Look::Dotted {
                 let size = (3 + curve.width) * SCALE;
                 let dots = points
                     .iter()

@@ -13,21 +13,21 @@
 //!
 //! At 6 km the front is faster and sharper, and cells of 20 m are still 0.2 MPa above those of 40 m.
 
+mod report;
 mod run;
+
+pub use report::report;
 pub use run::run;
-use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
-use serde_json::{Map as Object, json};
-use stickslip::fem::P1;
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::nalgebra::Vector2;
 use stickslip::{Simulation, Steps};
 
-use crate::cli::{Problem, expect, non_negative, positive};
-use crate::output::{Output, digits};
-use crate::plot::{self, COLORS, Panel};
+use crate::cli::{Problem, non_negative, positive};
+use crate::output::Files;
 use crate::probes::Probes;
+use crate::progress::Progress;
 
 /// Normal stress and initial shear stress \[Pa\].
 pub const NORMAL: f64 = 120e6;
@@ -38,15 +38,6 @@ pub const INITIAL_RATE: f64 = 0.5e-12;
 
 /// The stations of the histories \[m\].
 const STATIONS: [f64; 6] = [0.0, 3e3, 6e3, 9e3, 12e3, 15e3];
-/// The slip rate at the arrival of the rupture [m/s].
-const ARRIVED: (f64, f64) = (1e-3, 1e-3);
-/// The results of the spectral code uguca with cells of 25 m: x \[m\], arrival \[s\], slip at 5 s and 10 s \[m\].
-const REFERENCE: [[f64; 4]; 3] = [
-    [0.0, 0.573, 8.833, 14.815],
-    [3e3, 1.786, 6.871, 12.894],
-    [6e3, 2.979, 5.352, 11.519],
-];
-
 /// A dynamic plane rupture on a fault with rate- and state-dependent friction
 #[derive(Debug, Parser)]
 pub struct Arguments {
@@ -65,9 +56,9 @@ pub struct Arguments {
     /// The end of the run [s]
     #[arg(long, value_name = "TIME", default_value_t = 10.0, value_parser = positive)]
     pub until: f64,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "out/rupture")]
-    pub out: PathBuf,
+    /// The folder and the digits of the files.
+    #[command(flatten)]
+    pub files: Files,
 }
 
 /// Schemes by name.
@@ -180,9 +171,10 @@ pub fn take(
         [at.time, slip, rate, contact.traction(k)[0]]
     });
     let dt = step(arguments, simulation).recip();
+    let mut progress = Progress::default();
     for time in arguments.stops() {
         let plan = Steps::constant(dt).until(time);
-        stations.run(simulation, &plan, |_| ())?;
+        stations.run(simulation, &plan, (&mut progress, arguments.until), |_| ())?;
     }
     Ok(stations)
 }
@@ -196,98 +188,6 @@ fn step(arguments: &Arguments, simulation: &mut Simulation<2>) -> f64 {
     }
     let limit = simulation.step_limit().map(|limit| 0.9 * limit);
     limit.unwrap_or(arguments.cell / 6000.0).recip().ceil()
-}
-
-/// Writes and prints the results, beside those of the spectral code.
-///
-/// # Errors
-/// Files that cannot be written, and results that differ from the spectral code's where they should agree.
-pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 4>) -> Result<(), Problem> {
-    const FILES: [&str; 3] = ["stations.csv", "rupture.png", "summary.json"];
-    let output = Output::create(&arguments.out, &FILES)?;
-    let stations = probes.each.iter().map(|station| {
-        let x = space.mesh().vertices()[station.vertex][0];
-        (x, station)
-    });
-    let rows = stations.clone().flat_map(|(x, station)| {
-        let rows = station.rows.iter().skip(1);
-        rows.map(move |row| [x, row[0], row[1], row[2], row[3]].map(digits))
-    });
-    output.table(FILES[0], "x,time,slip,slip_rate,shear_stress", rows)?;
-    let names: Vec<String> = (stations.clone())
-        .map(|(x, _)| format!("x = {} km", x / 1e3))
-        .collect();
-    let panel = |name, column: usize, scale: f64| {
-        let mut panel = Panel::new("time [s]", name);
-        for ((station, label), color) in probes.each.iter().zip(&names).zip(COLORS) {
-            panel = panel.with(label, color, 3, station.curve(column, scale));
-        }
-        panel
-    };
-    let panels = [
-        panel("slip [m]", 1, 1.0),
-        panel("slip rate [m/s]", 2, 1.0),
-        panel("shear stress [MPa]", 3, 1e-6),
-    ];
-    plot::draw(&output.path(FILES[1]), &panels)?;
-    let (mut summary, mut verdict) = (Vec::new(), Ok(()));
-    println!(
-        "{:>6} {:>10} {:>10} {:>10} {:>12}",
-        "x km", "arrival s", "slip 5 s", "slip 10 s", "stress MPa"
-    );
-    for (x, station) in stations {
-        let arrival = station.times(ARRIVED, |row| row[2]).first().copied();
-        let peak = station.rows.iter().map(|row| row[3]).fold(0.0, f64::max);
-        let at = |time: f64| {
-            let found = station.rows.iter().find(|row| row[0] == time);
-            found.map_or(f64::NAN, |row| row[1])
-        };
-        println!(
-            "{:>6.1} {:>10.3} {:>10.3} {:>10.3} {:>12.2}",
-            x / 1e3,
-            arrival.unwrap_or(f64::NAN),
-            at(5.0),
-            at(10.0),
-            peak / 1e6
-        );
-        if let Some(known) = REFERENCE.iter().find(|known| known[0] == x) {
-            let [_, time, five, ten] = known;
-            println!(
-                "{:>6} {time:>10.3} {five:>10.3} {ten:>10.3}   by uguca, 25 m",
-                ""
-            );
-            // The spectral code's own cells of 50 m and 25 m agree to 0.01 s and 0.1 %.
-            if arguments.resolves() {
-                let arrived = expect("arrival", arrival.unwrap_or(f64::NAN), *time, 0.03);
-                let first = expect("slip at 5 s", at(5.0), *five, 0.01 * five);
-                let second = expect("slip at 10 s", at(10.0), *ten, 0.01 * ten);
-                verdict = verdict.and(arrived).and(first).and(second);
-            }
-        }
-        let slips: Object<String, serde_json::Value> = (arguments.stops())
-            .map(|time| (time.to_string(), json!(at(time))))
-            .collect();
-        summary.push(json!({ "x": x, "arrival": arrival, "slip": slips, "peak_stress": peak }));
-    }
-    let milliseconds = probes.milliseconds_per_step();
-    output.json(
-        FILES[2],
-        &json!({
-            "vertices": space.vertex_count(),
-            "cell": arguments.cell,
-            "steps": probes.cost.steps,
-            "stations": summary,
-            "milliseconds_per_step": milliseconds,
-        }),
-    )?;
-    println!(
-        "{} vertices, {} steps, {milliseconds:.3} ms a step; {} in {}",
-        space.vertex_count(),
-        probes.cost.steps,
-        FILES.join(", "),
-        output.folder().display()
-    );
-    verdict
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! The command line of the slider.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 
 use clap::Parser;
 use serde::Serialize;
@@ -14,6 +13,7 @@ use super::choices::{Body, Coupling, Frequency, Scheme, Solver, Update, frequenc
 use crate::checkpoints::{Checkpoints, Tags};
 use crate::cli::{Problem, count, finite, fraction, non_negative, poisson_ratio, positive, share};
 use crate::laws::{Friction, Law, Laws};
+use crate::output::Files;
 use stickslip::fem::{Elastic, P1};
 use stickslip::friction::DieterichRuina;
 use stickslip::reduced::{Reduced, ReducedBody};
@@ -41,7 +41,7 @@ pub struct Arguments {
     /// The time discretisation
     #[arg(long, default_value = "newmark")]
     pub scheme: Scheme,
-    /// The solver of the velocity problems; unused with central-differences
+    /// The solver of the velocity problems; not for central-differences, and not for a reduced body
     #[arg(long, default_value = "tnnmg")]
     pub solver: Solver,
     /// The whole body, or its Craig-Bampton reduction to the contact, with a dense solver
@@ -70,7 +70,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value = "10000", value_parser = count)]
     pub steps: NonZeroUsize,
     /// End at a failed step instead of splitting it into substeps
-    #[arg(long)]
+    #[arg(long, conflicts_with = "adaptive")]
     pub no_bridging: bool,
     /// Adapt the step to this local error of ln V and of the state; steps are 15 s / N at first, and
     /// 15 s / N times a power of two
@@ -95,10 +95,10 @@ pub struct Arguments {
     /// Write every K-th step to history.csv; the last one always is
     #[arg(long, value_name = "K", default_value = "1", value_parser = count)]
     pub every: NonZeroUsize,
-    /// The folder to write to
+    /// The folder and the digits of the files.
     #[serde(skip)]
-    #[arg(long, value_name = "DIR", default_value = "out/slider")]
-    pub out: PathBuf,
+    #[command(flatten)]
+    pub files: Files,
     /// The density [kg/m^2]
     #[arg(long, default_value_t = 5e3, value_parser = positive)]
     pub density: f64,
@@ -144,7 +144,7 @@ impl Arguments {
             every,
             ..
         } = *self;
-        let (out, solver) = (self.out.clone(), self.solver);
+        let (files, solver) = (self.files.clone(), self.solver);
         let checkpoints = self.checkpoints.clone();
         let default = Self::parse_from(["slider"]);
         *self
@@ -152,7 +152,7 @@ impl Arguments {
                 refinements,
                 until,
                 every,
-                out,
+                files,
                 solver,
                 checkpoints,
                 ..default

@@ -66,7 +66,7 @@ impl Setup {
 /// Writes and prints the results. Fails if the run did, or if the time of its first slip differs from a known one.
 pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Problem> {
     let laws = arguments.laws()?;
-    let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
+    let output = Output::create(&arguments.files, "slider", &[HISTORY, PICTURE, SUMMARY])?;
     let Setup {
         unknowns, seconds, ..
     } = setup;
@@ -109,39 +109,37 @@ pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Pr
     )?;
     plot::draw(&output.path(PICTURE), &panels(arguments, &run))?;
 
-    println!(
+    say!(
         "{unknowns} unknowns, {} steps of {:.4e} s to t = {:.5} s",
         cost.steps,
         arguments.step_size(),
         run.time_end
-    );
-    println!(
+    )?;
+    say!(
         "{} events (V(x0) above {:e} m/s) at t = {:.5?} s",
         run.events().len(),
         RECORDING.event.0,
         run.events()
-    );
+    )?;
     if run.substepped > 0 {
-        println!(
+        say!(
             "{} steps failed and were split into substeps",
             run.substepped
-        );
+        )?;
     }
-    println!(
+    say!(
         "displacement at x0 {:.6e} m, largest slip rate {:.4e} m/s",
-        run.displacement_end, cost.peak_slip_rate
-    );
-    println!(
+        run.displacement_end,
+        cost.peak_slip_rate
+    )?;
+    say!(
         "fixed-point iterations a step: average {:.3}, maximum {}; solver iterations a step: {:.2}",
         cost.per_step(problems),
         problems.most,
         cost.per_step(iterations)
-    );
-    println!("{milliseconds:.3} ms a step, {seconds:.3} s setup");
-    println!(
-        "{HISTORY}, {PICTURE}, {SUMMARY} in {}",
-        output.folder().display()
-    );
+    )?;
+    say!("{milliseconds:.3} ms a step, {seconds:.3} s setup")?;
+    say!("{}", output.told(&[HISTORY, PICTURE, SUMMARY]))?;
     if let Some(failure) = run.failure {
         return Err(failure.into());
     }

@@ -4,7 +4,6 @@ mod run;
 
 pub use run::run;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 
 use clap::Parser;
 use serde_json::json;
@@ -15,14 +14,15 @@ use stickslip::record::VtkSeries;
 use stickslip::{Simulation, Snapshot, StepFailure, Steps};
 
 use crate::cli::{Problem, count, finite, fraction};
-use crate::output::{Output, digits};
+use crate::output::{Files, Output, digits};
 use crate::plot::{self, DARK, Map, PALE, Panel, Sheet};
 use crate::probes::Probes;
+use crate::progress::Progress;
 use crate::slider::RECORDING;
 
 const HISTORY: &str = "history.csv";
 const PICTURE: &str = "history.png";
-const FRONT: &str = "front";
+const FRONT: &str = "front.png";
 const SUMMARY: &str = "summary.json";
 
 /// The number of times in the picture of the front.
@@ -51,9 +51,9 @@ pub struct Arguments {
     /// Write every K-th step as VTU files, 0 for none
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub vtu_every: usize,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "out/slider3d")]
-    pub out: PathBuf,
+    /// The folder and the digits of the files.
+    #[command(flatten)]
+    pub files: Files,
 }
 
 /// The record of a run.
@@ -92,21 +92,25 @@ pub fn take(
     });
     let mut front = Front::default();
     let plan = Steps::constant(END / arguments.steps.get() as f64);
-    let plan = plan.until(arguments.until * END);
+    let end = arguments.until * END;
+    let plan = plan.until(end);
+    let mut progress = Progress::default();
+    let bar = (&mut progress, end);
     if arguments.vtu_every > 0 {
-        std::fs::create_dir_all(&arguments.out)?;
-        let mut series = VtkSeries::new(&start, space, arguments.out.join("slider3d"))?
+        let folder = arguments.files.folder("slider3d");
+        std::fs::create_dir_all(&folder)?;
+        let mut series = VtkSeries::new(&start, space, folder.join("slider3d"))?
             .with_stress(move |_, _| elastic)
             .with_contact(&start, 0, bottom)?
             .every(arguments.vtu_every)?;
-        let run = probes.run(simulation, &plan, |at| {
+        let run = probes.run(simulation, &plan, bar, |at| {
             front.see(&at);
             series.record(&at)
         });
         series.finish()?;
         return Ok((Watched { probes, front }, run));
     }
-    let run = probes.run(simulation, &plan, |at| front.see(&at));
+    let run = probes.run(simulation, &plan, bar, |at| front.see(&at));
     Ok((Watched { probes, front }, run))
 }
 
@@ -140,7 +144,11 @@ pub fn report(
     bottom: &Trace<3>,
     (Watched { probes, front }, run): (Watched, Result<RunReport, StepFailure>),
 ) -> Result<(), Problem> {
-    let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
+    let output = Output::create(
+        &arguments.files,
+        "slider3d",
+        &[HISTORY, PICTURE, FRONT, SUMMARY],
+    )?;
     let (probe, cost) = (&probes.each[0], probes.cost);
     let rows = (probe.rows.iter()).map(|row| row[..7].iter().copied().map(digits));
     let columns = "time,slip_x,slip_y,velocity_x,velocity_y,alpha,max_slip_rate";
@@ -184,27 +192,27 @@ pub fn report(
             "failure": run.as_ref().err().map(ToString::to_string),
         }),
     )?;
-    println!(
+    say!(
         "{} vertices, {} on the bottom, {steps} steps to t = {:.5} s, {milliseconds:.3} ms a step",
         space.vertex_count(),
         bottom.vertices().len(),
         time
-    );
-    println!("first slip in the middle: {first:.6?} s; events at t = {events:.5?} s");
+    )?;
+    say!("first slip in the middle: {first:.6?} s; events at t = {events:.5?} s")?;
     if let Some(x) = origin {
-        println!(
+        say!(
             "the first front begins at x = {:.3} m, y = {:.3} m",
-            x[0], x[1]
-        );
+            x[0],
+            x[1]
+        )?;
     }
-    println!(
+    say!(
         "slip {:.4e} m along, {:.4e} m across; largest slip rate {:.3e} m/s",
-        x, y, cost.peak_slip_rate
-    );
-    println!(
-        "{HISTORY}, {PICTURE}, {FRONT}.png, {FRONT}.svg, {SUMMARY} in {}",
-        output.folder().display()
-    );
+        x,
+        y,
+        cost.peak_slip_rate
+    )?;
+    say!("{}", output.told(&[HISTORY, PICTURE, FRONT, SUMMARY]))?;
     run.map_err(Into::into).map(|_| ())
 }
 
@@ -253,9 +261,12 @@ fn draw_front(
             y: &y,
             values,
             range: (1e-6, 1e-2),
+            downward: false,
         };
         (format!("t = {time:.5} s"), map)
     });
-    let sheet = Sheet::new(maps.collect());
-    plot::print(output.folder(), FRONT, &sheet)
+    let sheet = Sheet::new(maps.collect()).or_says(format!(
+        "Nothing has slipped faster than {UNDER_WAY:e} m/s: there is no front up to the end of the run."
+    ));
+    plot::draw(&output.path(FRONT), &sheet)
 }

@@ -1,10 +1,10 @@
 //! The command line of the spring slider: presets, and a flag for each of their numbers.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 
 use crate::cli::{Problem, count, non_negative, positive};
 use crate::laws::{Friction, Law, Laws};
+use crate::output::Files;
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use stickslip::Steps;
@@ -17,7 +17,11 @@ use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 #[command(name = "spring_slider")]
 pub struct Arguments {
     /// The experiment
-    #[arg(value_name = "PRESET", default_value = "velocity-step")]
+    #[arg(
+        value_name = "PRESET",
+        default_value = "velocity-step",
+        conflicts_with = "preset_flag"
+    )]
     preset: Preset,
     /// The experiment, as a flag
     #[arg(long = "preset", value_name = "PRESET")]
@@ -73,21 +77,22 @@ pub struct Arguments {
     /// The state at time zero [s] [default: that of steady sliding at the load velocity]
     #[arg(long, value_parser = positive)]
     pub initial_theta: Option<f64>,
-    /// A constant time step [s]; without it, and in stick-slip, the step adapts
-    #[arg(long, value_parser = positive)]
+    /// A constant time step [s] of Newmark's method instead of steps that adapt
+    #[arg(long, value_parser = positive, conflicts_with = "tolerance")]
     dt: Option<f64>,
-    /// The local error of ln V and of the state for an adaptive step
+    /// The local error of ln V and of the state in a step that adapts
     #[arg(long, default_value_t = 1e-6, value_parser = positive)]
     pub tolerance: f64,
     /// The end [s]
     #[arg(long, value_parser = positive)]
     until: Option<f64>,
-    /// Write every K-th step to history.csv; the last one always is
-    #[arg(long, value_name = "K", default_value = "1", value_parser = count)]
-    pub every: NonZeroUsize,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "out/spring_slider")]
-    pub out: PathBuf,
+    /// Write every K-th step to history.csv; the last one always is [default: as many as make 20000 to 40000 rows, all of
+    /// fewer]
+    #[arg(long, value_name = "K", value_parser = count)]
+    pub every: Option<NonZeroUsize>,
+    /// The folder and the digits of the files.
+    #[command(flatten)]
+    pub files: Files,
 }
 
 /// The experiments.
@@ -109,6 +114,12 @@ fn interval(text: &str) -> Result<(f64, f64), String> {
     ordered.ok_or_else(|| "must end after it starts".into())
 }
 
+/// The least number of steps that adapt.
+const SAMPLES: f64 = 2000.0;
+/// A time and the coefficient of friction in the default setting at that time, a second after the step, as published
+/// with another code.
+pub(super) const PUBLISHED: (f64, f64) = (11.0, 0.607_204_85);
+
 /// The experiment by the flags and the preset.
 pub struct Experiment {
     /// The experiment by name.
@@ -125,6 +136,8 @@ pub struct Experiment {
     pub tolerance: f64,
     /// The steps, constant or adaptive.
     pub steps: Steps,
+    /// The end \[s\].
+    pub until: f64,
 }
 
 impl Arguments {
@@ -135,7 +148,7 @@ impl Arguments {
             == Self {
                 until: self.until,
                 every: self.every,
-                out: self.out.clone(),
+                files: self.files.clone(),
                 ..default
             }
     }
@@ -173,12 +186,19 @@ impl Arguments {
         let until = self.until.unwrap_or(until);
         let DieterichRuina { a, b, .. } = parameters;
         let critical = (b - a) * self.normal_stress / self.slip_distance;
-        let step_size = self.dt.or(step.then_some(5e-3));
+        let step_size = self.dt;
+        if let Some(dt) = step_size.filter(|&dt| dt > until) {
+            return Err(
+                format!("--dt {dt} is longer than the run of {until} s: see --until").into(),
+            );
+        }
         let steps = match step_size {
             Some(dt) => Steps::constant(dt).count((until / dt).round().max(1.0) as usize),
             None => Steps::adaptive(self.tolerance)
+                // Between the steps that the error asks for curves are smooth, and their extremes at one of them.
+                .with_max_step(until / SAMPLES)
                 .with_max_steps(2_000_000)
-                .stopping_at(load.kinks())
+                .stopping_at(load.kinks().chain(self.is_default().then_some(PUBLISHED.0)))
                 .until(until),
         };
         // Steady sliding on a soft spring is an equilibrium that nothing would ever leave.
@@ -201,6 +221,7 @@ impl Arguments {
             step_size,
             tolerance: self.tolerance,
             steps,
+            until,
         })
     }
 }

@@ -1,9 +1,10 @@
 //! The spring slider: command line and report.
 
 mod arguments;
+mod record;
 mod report;
 mod run;
 
 pub use arguments::{Arguments, Experiment, Preset};
-pub use report::{Record, Sample};
+pub use record::{Record, Sample};
 pub use run::run;

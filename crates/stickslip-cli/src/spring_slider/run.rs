@@ -11,9 +11,11 @@
 
 use std::time::Instant;
 
+use super::arguments::PUBLISHED;
 use super::{Arguments, Experiment, Record, Sample};
 use crate::cli::Problem;
 use crate::laws::Law;
+use crate::progress::Progress;
 use stickslip::integrate::Stepper;
 use stickslip::state::Theta;
 use stickslip::{Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, Snapshot};
@@ -25,7 +27,7 @@ use stickslip::{Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, Snapshot};
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let experiment = arguments.experiment()?;
     let (method, mut block) = block(arguments, &experiment)?;
-    let mut record = Record::new(method);
+    let mut record = Record::new(method, arguments.every, PUBLISHED.0);
     // The spring starts unstretched by the slip to come.
     let origin = block.snapshot().displacement[0][0];
     let log_theta = arguments.law.log_theta();
@@ -41,8 +43,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
         });
     };
     observe(block.snapshot());
-    let clock = Instant::now();
-    let failure = block.run(&experiment.steps, observe).err();
+    let (clock, mut progress) = (Instant::now(), Progress::default());
+    let failure = block.run(&experiment.steps, |at| {
+        progress.at(at.time, experiment.until, at.velocity[0][0].abs());
+        observe(at);
+    });
+    let failure = failure.err();
+    drop(progress);
     record.seconds = clock.elapsed().as_secs_f64();
     record.report(arguments, &experiment, failure, || {
         let (_, mut block) = self::block(arguments, &experiment)?;

@@ -5,7 +5,6 @@ mod runs;
 pub use run::run;
 pub use runs::Runs;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -16,8 +15,9 @@ use stickslip::friction::DieterichRuina;
 use stickslip::problems::pipping_slider::FRICTION;
 
 use crate::cli::{Problem, count, positive};
-use crate::output::{Output, digits};
+use crate::output::{Files, Output, digits};
 use crate::plot::{self, Scatter};
+use crate::progress::Progress;
 
 /// Parameter sweep: sets of (a, b, L) on the paper's slider, reduced once and shared by all threads. Writes sweep.csv,
 /// sweep.png and sweep.svg.
@@ -42,14 +42,13 @@ pub struct Arguments {
     /// Keep the modes of the body up to this frequency [Hz]
     #[arg(long, value_name = "HZ", default_value_t = 120.0, value_parser = positive)]
     pub frequency: f64,
-    /// The folder to write to
-    #[arg(long, value_name = "DIR", default_value = "out/sweep")]
-    out: PathBuf,
+    /// The folder and the digits of the files.
+    #[command(flatten)]
+    pub files: Files,
 }
 
 const TABLE: &str = "sweep.csv";
-const PICTURES: [&str; 2] = ["sweep.png", "sweep.svg"];
-const NAME: &str = "sweep";
+const PICTURE: &str = "sweep.png";
 
 /// The result of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -117,7 +116,7 @@ impl Arguments {
 
     /// Opens the output files.
     pub fn output(&self) -> Result<Table, Problem> {
-        let output = Output::create(&self.out, &[TABLE, PICTURES[0], PICTURES[1]])?;
+        let output = Output::create(&self.files, "sweep", &[TABLE, PICTURE])?;
         Ok(Table { output })
     }
 }
@@ -129,6 +128,7 @@ pub fn in_threads(
     take: impl Fn(DieterichRuina) -> Seen + Sync,
 ) -> Result<Vec<Seen>, Problem> {
     let (next, done) = (AtomicUsize::new(0), Mutex::new(vec![None; laws.len()]));
+    let progress = Mutex::new((0, Progress::default()));
     thread::scope(|scope| {
         for _ in 0..threads.min(laws.len()) {
             scope.spawn(|| {
@@ -138,6 +138,14 @@ pub fn in_threads(
                     let seen = take(*law);
                     if let Ok(mut done) = done.lock() {
                         done[k] = Some(seen);
+                    }
+                    if let Ok(mut progress) = progress.lock() {
+                        let (count, bar) = &mut *progress;
+                        *count += 1;
+                        let (taken, all) = (*count, laws.len());
+                        bar.show(taken as f64 / all as f64, || {
+                            format!("{taken} of {all} sets")
+                        });
                     }
                 }
             });
@@ -179,7 +187,10 @@ fn write(output: &Output, rows: &[(DieterichRuina, Seen)]) -> Result<(), Problem
                 recurrence,
                 seen.peak_slip_rate,
             ];
-            numbers.map(digits).into_iter().chain([seen.status()])
+            numbers
+                .map(digits)
+                .into_iter()
+                .chain([seen.status().into()])
         }),
     )?;
     let scatter = |name, value: fn(&Seen) -> Option<f64>| Scatter {
@@ -196,25 +207,21 @@ fn write(output: &Output, rows: &[(DieterichRuina, Seen)]) -> Result<(), Problem
         scatter("recurrence [s], ring: none", Seen::recurrence),
         scatter("peak slip rate [m/s]", peak),
     ];
-    plot::print(output.folder(), NAME, &picture[..])?;
+    plot::draw(&output.path(PICTURE), &picture[..])?;
     let count = |begin: &str| {
         let rows = rows.iter();
         rows.filter(|(_, seen)| seen.status().starts_with(begin))
             .count()
     };
-    println!(
+    say!(
         "{} sets: events recur in {}, {} with one event, {} without, {} lost",
         rows.len(),
         count("events"),
         count("one"),
         count("no"),
         count("lost")
-    );
-    println!(
-        "{TABLE}, {} in {}",
-        PICTURES.join(", "),
-        output.folder().display()
-    );
+    )?;
+    say!("{}", output.told(&[TABLE, PICTURE]))?;
     Ok(())
 }
 

@@ -133,7 +133,7 @@ fn wrong_input_of_a_fit_is_one_line() -> Outcome {
         .output()?;
     let error = String::from_utf8(output.stderr)?;
     assert!(
-        error.contains("line 3: not all cells are numbers"),
+        error.contains("line 3, cell 2 (friction): `much` is not a number"),
         "{error}"
     );
     assert!(!folder.join("out").exists());

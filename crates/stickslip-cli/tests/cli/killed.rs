@@ -123,7 +123,9 @@ fn a_hopeless_run_is_told_as_early() -> Outcome {
         command.arg("--out").arg(place.join("out")).args(kept);
         let output = command.output()?;
         assert!(!output.status.success());
-        Ok(String::from_utf8(output.stderr)?)
+        // After lines of progress, if there are any.
+        let lines = String::from_utf8(output.stderr)?;
+        Ok(lines.lines().last().unwrap_or_default().to_owned())
     };
     let [keep, every] = ["--checkpoint", "--checkpoint-every"].map(OsStr::new);
     let kept = [keep, file.as_ref(), every, OsStr::new(EVERY)];

@@ -3,7 +3,11 @@
 mod crack;
 mod fit;
 mod killed;
+mod pipes;
 mod refusals;
+mod spring_slider;
+mod tables;
+mod wrong;
 
 use std::error::Error;
 use std::path::PathBuf;

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use stickslip::bie::Cells;
 use stickslip::integrate::Stepper;
 use stickslip::problems::bp1::MEDIUM;
-use stickslip::record::{Event, EventCatalogue, SeasPoint, Table};
+use stickslip::record::{EventCatalogue, SeasPoint};
 use stickslip::{Run, Snapshot};
 
 use super::profiles::Profiles;
@@ -19,7 +19,7 @@ use super::{Arguments, Failed, Station, YEAR};
 use crate::onsets::Onsets;
 use crate::output::Output;
 use crate::plot::Points;
-use crate::record::Progress;
+use crate::progress::Progress;
 
 /// The slip rate at which an event begins and ends at its station [m/s].
 const EVENT: f64 = 1e-2;
@@ -186,7 +186,7 @@ impl<'a> Line<'a> {
             "slip_rate_map.png",
             "summary.json",
         ];
-        let output = Output::create(&arguments.out, &FILES)?;
+        let output = Output::create(&arguments.files, "earthquakes", &FILES)?;
         let mut files = files(arguments, self.places(), &motion.snapshot())?;
         let (clock, mut progress) = (Instant::now(), Progress::default());
         let rates = [EVENT, 0.1 * EVENT];
@@ -209,26 +209,12 @@ impl<'a> Line<'a> {
         }
         let seconds = clock.elapsed().as_secs_f64();
         let [events, others @ ..] = FILES;
-        let mut table = Table::new(output.file(events)?, &Event::COLUMNS)?;
         // One under way at the end has no arrest.
         let under_way = catalogue.under_way(&motion.snapshot());
-        for event in catalogue.events().iter().chain(&under_way) {
-            table.row(event.entries())?;
-        }
-        table.finish()?;
+        output.events(events, catalogue.events().iter().chain(&under_way))?;
         self.write(&output, others)?;
         let [surface, middle] = [0, 1].map(|n| self.slip_per_event(n));
         let times = self.times();
-        println!(
-            "{:>12} {:>14} {:>14} {:>12}",
-            "event years", "slip 0 km [m]", "7.5 km [m]", "log10 V"
-        );
-        for (n, time) in times.iter().enumerate() {
-            println!(
-                "{time:>12.3} {:>14.4} {:>14.4} {:>12.3}",
-                surface[n], middle[n], self.peaks[n]
-            );
-        }
         let mut summary = json!({
             "problem": arguments.problem.name(),
             "cell": self.cells.length(),
@@ -249,15 +235,29 @@ impl<'a> Line<'a> {
             summary.extend(settings);
         }
         output.json(FILES[5], &summary)?;
-        println!(
-            "{} events anywhere, {} cells, {} steps, {} taken back, {seconds:.1} s; {} in {}",
+        say!(
+            "{:>12} {:>14} {:>14} {:>12}",
+            "event years",
+            "slip 0 km [m]",
+            "7.5 km [m]",
+            "log10 V"
+        )?;
+        for (n, time) in times.iter().enumerate() {
+            say!(
+                "{time:>12.3} {:>14.4} {:>14.4} {:>12.3}",
+                surface[n],
+                middle[n],
+                self.peaks[n]
+            )?;
+        }
+        say!(
+            "{} events anywhere, {} cells, {} steps, {} taken back, {seconds:.1} s; {}",
             catalogue.events().len() + usize::from(under_way.is_some()),
             self.cells.count(),
             self.steps,
             report.rejected + report.failed,
-            FILES.join(", "),
-            output.folder().display()
-        );
+            output.told(&FILES)
+        )?;
         Ok(())
     }
 }

@@ -26,7 +26,7 @@ impl Line<'_> {
             rows.map(|row| row.map(digits).into_iter().take(count)),
         )?;
         let panel = self.profiles.draw(
-            Panel::new("slip [m]", "depth [km]"),
+            Panel::new("slip [m]", "depth [km]").downward(),
             ["every 5 years", "every second of events"],
             |depth, slip| Some((slip, depth)),
         );
