@@ -2,6 +2,7 @@
 
 mod arguments;
 mod choices;
+mod plan;
 mod report;
 mod run;
 

@@ -194,7 +194,7 @@ fn write(output: &Output, rows: &[(DieterichRuina, Seen)]) -> Result<(), Problem
         }),
     )?;
     let scatter = |name, value: fn(&Seen) -> Option<f64>| Scatter {
-        names: ["b - a", "slip distance L [m]", name],
+        names: ["b − a", "slip distance L [m]", name],
         points: (rows.iter())
             .map(|(law, seen)| {
                 let shown = value(seen).filter(|_| seen.lost.is_none());
