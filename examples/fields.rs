@@ -90,6 +90,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         y: &positions,
         values: &rates,
         range: (1e-7, 1e-2),
+        downward: false,
     };
     let output = Output::create(Path::new("out/fields"), &[])?;
     plot::draw(&output.path("fields.png"), &map)?;

@@ -56,8 +56,8 @@ def test_stick_slip_has_the_bits_of_the_command_line(tmp_path: Path) -> None:
     program = os.environ.get("STICKSLIP")
     if program is None:
         pytest.skip("STICKSLIP is not set to the program `stickslip`")
-    arguments = ["spring-slider", "stick-slip", "--until", "600", "--out", str(tmp_path)]
-    subprocess.run([program, *arguments], check=True, capture_output=True)
+    arguments = ["spring-slider", "stick-slip", "--until", "600", "--max-step", "600", "--full-precision"]
+    subprocess.run([program, *arguments, "--out", str(tmp_path)], check=True, capture_output=True)
     with open(tmp_path / "history.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     critical = ss.SpringSlider.critical_stiffness(1e6, a=0.010, b=0.015, Dc=1e-5)

@@ -10,7 +10,7 @@ use stickslip::{Run, SceneError, Snapshot, StepFailure, Steps};
 use crate::cli::Problem;
 use crate::cost::Statistics;
 use crate::onsets::Onsets;
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::Points;
 use crate::progress::Progress;
 use crate::sample::Sample;
@@ -189,11 +189,11 @@ impl Record {
         let rows = self.samples.iter().map(|sample| {
             [
                 sample.step.to_string().into(),
-                digits(sample.time),
-                digits(sample.displacement),
-                digits(sample.velocity),
-                digits(log_theta(sample.state)),
-                digits(sample.max_slip_rate),
+                number(sample.time),
+                number(sample.displacement),
+                number(sample.velocity),
+                number(log_theta(sample.state)),
+                number(sample.max_slip_rate),
                 sample.report.coupling_iterations.to_string().into(),
                 sample.report.solver_iterations.to_string().into(),
             ]

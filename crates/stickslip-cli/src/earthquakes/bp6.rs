@@ -14,7 +14,7 @@ use stickslip::{Contact, Run, Snapshot};
 use super::antiplane::antiplane;
 use super::{Arguments, DAY, Failed, Station, state_for};
 use crate::cli::expect;
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::{self, COLORS, Panel, Points};
 use crate::progress::Progress;
 
@@ -140,7 +140,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failed> {
 
 fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> Result<(), Failed> {
     const FILES: [&str; 3] = ["stations.csv", "stations.png", "summary.json"];
-    let output = Output::create(&arguments.files, "earthquakes", &FILES)?;
+    let output = arguments.files.create("earthquakes", &FILES)?;
     let mut watches = STATIONS.map(|z| Watch {
         station: Station::on_line(fault.cells(), z),
         rates: Points::new(),
@@ -163,7 +163,7 @@ fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> 
     let rows = watches.iter().flat_map(|watch| {
         let rows = watch.rates.iter().zip(&watch.slips);
         rows.map(|(rate, slip)| {
-            [watch.station.position[1], rate.0 * DAY, slip.1, rate.1].map(digits)
+            [watch.station.position[1], rate.0 * DAY, slip.1, rate.1].map(number)
         })
     });
     output.table(FILES[0], "depth,time,slip,log10_slip_rate", rows)?;

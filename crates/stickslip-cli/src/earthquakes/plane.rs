@@ -16,7 +16,6 @@ use super::events::Events;
 use super::plane_record::{EVENT, Record};
 use super::seas::{Places, files};
 use super::{Arguments, Failed, YEAR};
-use crate::output::Output;
 use crate::progress::Progress;
 
 /// Poisson's ratio.
@@ -168,7 +167,7 @@ impl Setting {
             "rupture.png",
             "summary.json",
         ];
-        let output = Output::create(&arguments.files, "earthquakes", &FILES)?;
+        let output = arguments.files.create("earthquakes", &FILES)?;
         let clock = Instant::now();
         let mut motion = RungeKutta::new(self.scene(fault)?)?;
         let setup = clock.elapsed().as_secs_f64();

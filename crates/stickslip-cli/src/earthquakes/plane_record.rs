@@ -12,7 +12,7 @@ use super::plane::Setting;
 use super::profiles::Profiles;
 use super::space_time::SpaceTime;
 use super::{Failed, Station, YEAR};
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::{self, COLORS, DARK, Panel, Points};
 
 /// The slip rate anywhere at which an event begins [m/s].
@@ -146,7 +146,7 @@ impl<'a> Record<'a> {
             let [x, y] = watch.station.position;
             let rows = watch.rows.iter();
             rows.map(move |[time, slip, rate, stress]| {
-                [x, y, *time, *slip, *rate, *stress].map(digits)
+                [x, y, *time, *slip, *rate, *stress].map(number)
             })
         });
         output.table(

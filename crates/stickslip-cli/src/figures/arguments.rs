@@ -94,7 +94,7 @@ impl Arguments {
     /// It cannot be created.
     pub fn output(&self) -> Result<Output, Problem> {
         let (files, name) = self.files();
-        Output::create(files, name, &[])
+        files.create(name, &[])
     }
 
     /// The number of simultaneous runs.

@@ -7,7 +7,7 @@ use super::experiment::Scheme;
 use super::outcome::FRACTIONS;
 use super::{Drawing, Experiment, Figure, Outcome};
 use crate::cli::Problem;
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::{self, COLORS, Panel};
 use crate::sample::Sample;
 
@@ -94,10 +94,10 @@ pub(super) fn write(
             let steps = outcome.experiment.steps.to_string();
             [
                 steps.into(),
-                digits(s.time),
-                digits(s.displacement),
-                digits(s.velocity),
-                digits(s.state),
+                number(s.time),
+                number(s.displacement),
+                number(s.velocity),
+                number(s.state),
             ]
         })
     });

@@ -7,7 +7,7 @@ use super::histories::setting;
 use super::outcome::FAST;
 use super::{Drawing, Experiment, Outcome};
 use crate::cli::Problem;
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::{self, Map};
 
 /// A wave that starts at the centre and is arrested before the ends.
@@ -39,7 +39,7 @@ impl Drawing for Rupture {
         )?;
         let rows = rupture.slip_rates.iter().enumerate().map(|(k, &rate)| {
             let (time, x) = (rupture.times[k / width], rupture.x[k % width]);
-            [digits(time), digits(x), digits(rate)]
+            [number(time), number(x), number(rate)]
         });
         output.table("6.5.csv", "time,x,slip_rate", rows)?;
         Ok(json!({

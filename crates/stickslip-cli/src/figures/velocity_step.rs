@@ -7,7 +7,7 @@ use stickslip::state::{LogTheta, StateLaw};
 
 use super::{Drawing, Experiment, Outcome};
 use crate::cli::Problem;
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::{self, COLORS, Panel, Points};
 
 /// A point with a prescribed slip rate: the state has a closed form.
@@ -53,7 +53,7 @@ impl Drawing for VelocityStep {
         for ((name, law), color) in laws.into_iter().zip([COLORS[3], COLORS[2]]) {
             let (points, ends) = Self::curve(law)?;
             let row =
-                |p: &(f64, f64)| [name.to_lowercase().into(), digits(1e-3 * p.0), digits(p.1)];
+                |p: &(f64, f64)| [name.to_lowercase().into(), number(1e-3 * p.0), number(p.1)];
             rows.extend(points.iter().map(row));
             numbers.push(json!({
                 "law": name.to_lowercase(),

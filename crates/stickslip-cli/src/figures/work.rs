@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::experiment::{Iteration, Scheme};
 use super::{Drawing, Experiment, Outcome};
 use crate::cli::Problem;
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::{self, COLORS, Panel};
 
 /// The time of the first slip by four methods, against their cost.
@@ -89,7 +89,7 @@ impl Drawing for Work {
                     (*name).into(),
                     steps.into(),
                     format!("{:.4}", o.seconds).into(),
-                    digits(error(o)),
+                    number(error(o)),
                 ]
             }));
             let runs = of.iter().map(|o| {

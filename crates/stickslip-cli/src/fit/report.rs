@@ -5,7 +5,7 @@ use stickslip::lab::{Errors, Estimate, Fitted, Healing, LabError, Parameter};
 
 use super::settings::{Job, Unread};
 use crate::cli::Problem;
-use crate::output::{Cell, Output, digits};
+use crate::output::{Cell, Output, number};
 use crate::plot::{self, DARK, PALE, Panel};
 
 pub(super) const TABLE: &str = "fits.csv";
@@ -42,26 +42,26 @@ pub(super) fn table(
         let (from, to) = job.window.unwrap_or((times[0], times[times.len() - 1]));
         let mut row: Vec<Cell> = vec![
             job.file.as_str().into(),
-            digits(from),
-            digits(to),
+            number(from),
+            number(to),
             times.len().to_string().into(),
         ];
         match fit {
             Ok(fitted) => {
                 row.push(fitted.laws.join("+").into());
                 for &parameter in &parameters {
-                    row.push(digits(fitted.value(parameter)));
-                    row.push(digits(fitted.standard_error(parameter)));
+                    row.push(number(fitted.value(parameter)));
+                    row.push(number(fitted.standard_error(parameter)));
                 }
                 let (difference, error) = fitted.a_minus_b;
-                row.extend([difference, error, fitted.rms, fitted.aic].map(digits));
+                row.extend([difference, error, fitted.rms, fitted.aic].map(number));
                 let warnings = fitted.warnings.iter().map(ToString::to_string);
                 let warnings: Vec<_> = job.note().into_iter().chain(warnings).collect();
                 row.extend([warnings.join("; "), String::new()].map(Cell::from));
             }
             Err(error) => {
                 row.push("".into());
-                row.extend(vec![digits(f64::NAN); 2 * parameters.len() + 4]);
+                row.extend(vec![number(f64::NAN); 2 * parameters.len() + 4]);
                 row.extend([String::new(), error.to_string()].map(Cell::from));
             }
         }
@@ -70,7 +70,7 @@ pub(super) fn table(
     let others = unread.iter().map(|unread| {
         let mut row: Vec<Cell> = ["NaN", "NaN", "0", ""].map(Cell::from).into();
         row.insert(0, unread.file.as_str().into());
-        row.extend(vec![digits(f64::NAN); 2 * parameters.len() + 4]);
+        row.extend(vec![number(f64::NAN); 2 * parameters.len() + 4]);
         row.extend(["", unread.error.as_str()].map(Cell::from));
         row
     });
@@ -140,7 +140,7 @@ pub(super) fn curve(
     let data = job.record.friction();
     let rows = (0..times.len()).map(|n| {
         let (model, residual) = (fitted.friction[n], fitted.residuals[n]);
-        [times[n], displacements[n], data[n], model, residual].map(digits)
+        [times[n], displacements[n], data[n], model, residual].map(number)
     });
     let columns = "time,displacement,friction,model,residual";
     output.table(&format!("{name}.csv"), columns, rows)?;
@@ -177,7 +177,7 @@ pub(super) fn write_holds(output: &Output, found: &[(String, Healing)]) -> Resul
                 hold.healing(),
             ];
             let mut row: Vec<Cell> = vec![file.as_str().into()];
-            row.extend(numbers.map(digits));
+            row.extend(numbers.map(number));
             row
         })
     });

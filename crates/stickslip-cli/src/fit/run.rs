@@ -11,7 +11,6 @@ use super::Arguments;
 use super::report::{HOLDS, SUMMARY, TABLE, curve, print_holds, summary, table, write_holds};
 use super::settings::Unread;
 use crate::cli::Problem;
-use crate::output::Output;
 
 /// Fits all files and windows.
 ///
@@ -45,7 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
             return Err(first.error.clone().into());
         }
     }
-    let output = Output::create(&arguments.output, "fit", &[TABLE, SUMMARY])?;
+    let output = arguments.output.create("fit", &[TABLE, SUMMARY])?;
     let fits: Vec<_> = jobs
         .iter()
         .map(|job| fit.run(&job.record, &job.load))

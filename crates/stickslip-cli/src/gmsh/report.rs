@@ -10,7 +10,7 @@ use stickslip::{Simulation, StepFailure, Steps};
 use super::Arguments;
 use super::faults::Fault;
 use crate::cli::{Problem, expect};
-use crate::output::{Output, digits};
+use crate::output::number;
 use crate::plot::{self, DARK, Panel};
 use crate::probes::Probes;
 use crate::progress::Progress;
@@ -135,9 +135,11 @@ pub(super) fn report<const D: usize>(
 ) -> Result<(), Problem> {
     warn_of_strain(arguments, space, run.strain);
     let (probes, iterations, contraction) = (run.probes, run.iterations, run.contraction);
-    let output = Output::create(&arguments.files, "gmsh", &[HISTORY, PICTURE, SUMMARY])?;
+    let output = arguments
+        .files
+        .create("gmsh", &[HISTORY, PICTURE, SUMMARY])?;
     let (probe, cost) = (&probes.each[0], probes.cost);
-    let rows = probe.rows.iter().map(|row| row.map(digits));
+    let rows = probe.rows.iter().map(|row| row.map(number));
     output.table(
         HISTORY,
         "time,displacement,velocity,alpha,max_slip_rate",

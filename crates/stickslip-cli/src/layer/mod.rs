@@ -7,7 +7,7 @@ pub use run::run;
 use std::num::NonZeroUsize;
 
 use crate::cli::{Problem, count, expect};
-use crate::output::{Files, Output, digits};
+use crate::output::{Files, number};
 use crate::plot::{self, DARK, PALE, Panel};
 use crate::record::Record;
 use clap::{Parser, ValueEnum};
@@ -125,14 +125,12 @@ impl Exact {
 
 /// Writes and prints both solutions; fails if the first events are further apart than methods of second order allow.
 pub fn report(arguments: &Arguments, run: Record, exact: &Exact) -> Result<(), Problem> {
-    let output = Output::create(
-        &arguments.files,
-        "layer",
-        &[HISTORY, EXACT, PICTURE, SUMMARY],
-    )?;
+    let output = arguments
+        .files
+        .create("layer", &[HISTORY, EXACT, PICTURE, SUMMARY])?;
     run.write_history(&output, HISTORY, |alpha| alpha)?;
-    let digits = |s: &ExactSample| [s.time, s.displacement, s.slip_rate].map(digits);
-    let samples = exact.samples.iter().map(digits);
+    let row = |s: &ExactSample| [s.time, s.displacement, s.slip_rate].map(number);
+    let samples = exact.samples.iter().map(row);
     output.table(EXACT, "time,displacement,slip_rate", samples)?;
     let (cost, events) = (run.cost, [run.events(), exact.events.times()]);
     let slips = [run.first_slip(), exact.slips.times().first().copied()];

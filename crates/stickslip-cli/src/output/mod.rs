@@ -5,7 +5,8 @@ mod cell;
 mod say;
 mod whole;
 
-use std::fs::create_dir_all;
+use std::fs::{File, create_dir_all};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -14,7 +15,7 @@ use stickslip::record::{Event, Table};
 
 use crate::cli::Problem;
 
-pub use cell::{Cell, digits};
+pub use cell::{Cell, digits, number};
 pub use say::{note, print};
 pub(crate) use whole::write_whole;
 
@@ -38,6 +39,18 @@ impl Files {
 }
 
 impl Files {
+    /// Creates the folder of a command, with this name by default, for these files.
+    ///
+    /// # Errors
+    /// As [`Output::create`].
+    pub fn create(&self, name: &str, names: &[&str]) -> Result<Output, Problem> {
+        let output = Output::create(&self.folder(name), names)?;
+        Ok(Output {
+            full_precision: self.full_precision,
+            ..output
+        })
+    }
+
     /// Refuses a folder that cannot be created or written to, before a run, without creating it.
     ///
     /// # Errors
@@ -62,17 +75,15 @@ pub struct Output {
 }
 
 impl Output {
-    /// Creates the folder of a command, with this name by default, for these files: a folder without room for them
-    /// fails at once.
+    /// Creates the folder for these files: one that cannot hold them fails at once.
     ///
     /// # Errors
     /// The folder cannot be created or written to, or holds a folder with the name of a file.
-    pub fn create(files: &Files, name: &str, names: &[&str]) -> Result<Self, Problem> {
-        let folder = files.folder(name);
-        create_dir_all(&folder).map_err(|error| {
+    pub fn create(folder: &Path, names: &[&str]) -> Result<Self, Problem> {
+        create_dir_all(folder).map_err(|error| {
             format!("--out: cannot create folder {}: {error}", folder.display())
         })?;
-        tempfile::tempfile_in(&folder)
+        tempfile::tempfile_in(folder)
             .map_err(|error| format!("--out: cannot write to {}: {error}", folder.display()))?;
         for path in names.iter().map(|name| folder.join(name)) {
             if path.is_dir() {
@@ -80,8 +91,8 @@ impl Output {
             }
         }
         Ok(Self {
-            folder,
-            full_precision: files.full_precision,
+            folder: folder.into(),
+            full_precision: false,
         })
     }
 
@@ -90,11 +101,11 @@ impl Output {
     /// # Errors
     /// It cannot be created.
     pub fn within(&self, name: &str) -> Result<Self, Problem> {
-        let files = Files {
-            out: Some(self.folder.join(name)),
+        let output = Self::create(&self.folder.join(name), &[])?;
+        Ok(Self {
             full_precision: self.full_precision,
-        };
-        Self::create(&files, name, &[])
+            ..output
+        })
     }
 
     /// The folder.
@@ -115,6 +126,17 @@ impl Output {
         });
         let names: Vec<String> = names.collect();
         format!("{} in {}", names.join(", "), self.folder.display())
+    }
+
+    /// The empty file `name`, for rows that are written as a run goes.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn file(&self, name: &str) -> Result<BufWriter<File>, Problem> {
+        let path = self.path(name);
+        let file = File::create(&path)
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        Ok(BufWriter::new(file))
     }
 
     /// Writes `value` as JSON; numbers that are not finite become `null`.

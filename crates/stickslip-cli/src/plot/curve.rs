@@ -29,7 +29,7 @@ pub(super) enum Look {
     Points,
 }
 
-/// Which lines cover an earlier one over most of their length: dashed, they show it. None of a family of many.
+/// Which lines cover an earlier one over nearly all of their length: dashed, they show it. None of a family of many.
 pub(super) fn covering(curves: &[Curve<'_>], logarithmic: bool) -> Vec<bool> {
     let is_line = |curve: &Curve<'_>| curve.look == Look::Line && curve.points.len() > 1;
     let height = |y: f64| if logarithmic { y.abs().log10() } else { y };
@@ -47,7 +47,7 @@ pub(super) fn covering(curves: &[Curve<'_>], logarithmic: bool) -> Vec<bool> {
     (0..curves.len()).map(of).collect()
 }
 
-/// Whether most points of a curve over increasing places lie within a distance of another one, after a map of heights.
+/// Whether nine in ten points of a curve over increasing places lie within a distance of another one, after a map of heights.
 fn covers(
     curve: &[(f64, f64)],
     other: &[(f64, f64)],
@@ -72,7 +72,7 @@ fn covers(
         let [low, high] = [from.1, to.1].map(&height);
         close += usize::from((low + part * (high - low) - height(y)).abs() <= near);
     }
-    2 * close > curve.len()
+    10 * close > 9 * curve.len()
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use stickslip::fem::P1;
 
 use super::Arguments;
 use crate::cli::{Problem, expect};
-use crate::output::{Output, digits};
+use crate::output::number;
 use crate::plot::{self, COLORS, Panel};
 use crate::probes::Probes;
 
@@ -24,14 +24,14 @@ const REFERENCE: [[f64; 4]; 3] = [
 /// Files that cannot be written, and results that differ from the spectral code's where they should agree.
 pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 4>) -> Result<(), Problem> {
     const FILES: [&str; 3] = ["stations.csv", "rupture.png", "summary.json"];
-    let output = Output::create(&arguments.files, "rupture", &FILES)?;
+    let output = arguments.files.create("rupture", &FILES)?;
     let stations = probes.each.iter().map(|station| {
         let x = space.mesh().vertices()[station.vertex][0];
         (x, station)
     });
     let rows = stations.clone().flat_map(|(x, station)| {
         let rows = station.rows.iter().skip(1);
-        rows.map(move |row| [x, row[0], row[1], row[2], row[3]].map(digits))
+        rows.map(move |row| [x, row[0], row[1], row[2], row[3]].map(number))
     });
     output.table(FILES[0], "x,time,slip,slip_rate,shear_stress", rows)?;
     let names: Vec<String> = (stations.clone())

@@ -8,7 +8,6 @@ use stickslip::reduced::ReducedBody;
 
 use super::Arguments;
 use crate::cli::{Problem, expect};
-use crate::output::Output;
 use crate::plot::{self, DARK, Panel};
 use crate::record::{Record, Recording};
 
@@ -66,7 +65,9 @@ impl Setup {
 /// Writes and prints the results. Fails if the run did, or if the time of its first slip differs from a known one.
 pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Problem> {
     let laws = arguments.laws()?;
-    let output = Output::create(&arguments.files, "slider", &[HISTORY, PICTURE, SUMMARY])?;
+    let output = arguments
+        .files
+        .create("slider", &[HISTORY, PICTURE, SUMMARY])?;
     let Setup {
         unknowns, seconds, ..
     } = setup;

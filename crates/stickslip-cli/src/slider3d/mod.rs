@@ -14,7 +14,7 @@ use stickslip::record::VtkSeries;
 use stickslip::{Simulation, Snapshot, StepFailure, Steps};
 
 use crate::cli::{Problem, count, finite, fraction};
-use crate::output::{Files, Output, digits};
+use crate::output::{Files, Output, number};
 use crate::plot::{self, DARK, Map, PALE, Panel, Sheet};
 use crate::probes::Probes;
 use crate::progress::Progress;
@@ -144,13 +144,11 @@ pub fn report(
     bottom: &Trace<3>,
     (Watched { probes, front }, run): (Watched, Result<RunReport, StepFailure>),
 ) -> Result<(), Problem> {
-    let output = Output::create(
-        &arguments.files,
-        "slider3d",
-        &[HISTORY, PICTURE, FRONT, SUMMARY],
-    )?;
+    let output = arguments
+        .files
+        .create("slider3d", &[HISTORY, PICTURE, FRONT, SUMMARY])?;
     let (probe, cost) = (&probes.each[0], probes.cost);
-    let rows = (probe.rows.iter()).map(|row| row[..7].iter().copied().map(digits));
+    let rows = (probe.rows.iter()).map(|row| row[..7].iter().copied().map(number));
     let columns = "time,slip_x,slip_y,velocity_x,velocity_y,alpha,max_slip_rate";
     output.table(HISTORY, columns, rows)?;
     plot::draw(

@@ -78,8 +78,11 @@ pub struct Arguments {
     #[arg(long, value_parser = positive)]
     pub initial_theta: Option<f64>,
     /// A constant time step [s] of Newmark's method instead of steps that adapt
-    #[arg(long, value_parser = positive, conflicts_with = "tolerance")]
+    #[arg(long, value_parser = positive, conflicts_with_all = ["tolerance", "max_step"])]
     dt: Option<f64>,
+    /// The largest step that adapts [s] [default: a 2000th of the run, with which curves are smooth and extremes are met]
+    #[arg(long, value_name = "TIME", value_parser = positive)]
+    max_step: Option<f64>,
     /// The local error of ln V and of the state in a step that adapts
     #[arg(long, default_value_t = 1e-6, value_parser = positive)]
     pub tolerance: f64,
@@ -195,8 +198,7 @@ impl Arguments {
         let steps = match step_size {
             Some(dt) => Steps::constant(dt).count((until / dt).round().max(1.0) as usize),
             None => Steps::adaptive(self.tolerance)
-                // Between the steps that the error asks for curves are smooth, and their extremes at one of them.
-                .with_max_step(until / SAMPLES)
+                .with_max_step(self.max_step.unwrap_or(until / SAMPLES))
                 .with_max_steps(2_000_000)
                 .stopping_at(load.kinks().chain(self.is_default().then_some(PUBLISHED.0)))
                 .until(until),

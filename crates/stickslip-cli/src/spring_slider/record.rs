@@ -40,8 +40,9 @@ pub struct Record {
     pub(super) count: usize,
     /// The sum of local problems.
     pub(super) solves: usize,
-    /// The least and the largest coefficient of friction, and the largest slip rate [m/s].
+    /// The least and the largest coefficient of friction.
     pub(super) friction: [f64; 2],
+    /// The largest slip rate [m/s].
     pub(super) peak_slip_rate: f64,
     pub(super) events: Onsets,
     /// The coefficient of friction at a time \[s\] of interest, if a step ended there.

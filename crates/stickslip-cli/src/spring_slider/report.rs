@@ -1,7 +1,7 @@
 //! An experiment in numbers and as a picture.
 
 use crate::cli::{Problem, expect};
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::{self, DARK, Panel};
 use serde_json::json;
 use stickslip::StepFailure;
@@ -29,11 +29,9 @@ impl Record {
         failure: Option<StepFailure>,
         again: impl Fn() -> Result<f64, Problem>,
     ) -> Result<(), Problem> {
-        let output = Output::create(
-            &arguments.files,
-            "spring_slider",
-            &[HISTORY, PICTURE, SUMMARY],
-        )?;
+        let output = arguments
+            .files
+            .create("spring_slider", &[HISTORY, PICTURE, SUMMARY])?;
         if failure.is_none() && self.seconds < SHORT {
             let mut seconds = [0.0; RUNS];
             for seconds in &mut seconds {
@@ -78,7 +76,7 @@ impl Record {
                 s.theta,
                 s.friction,
             ]
-            .map(digits)
+            .map(number)
         });
         output.table(HISTORY, COLUMNS, rows)
     }

@@ -15,7 +15,7 @@ use stickslip::friction::DieterichRuina;
 use stickslip::problems::pipping_slider::FRICTION;
 
 use crate::cli::{Problem, count, positive};
-use crate::output::{Files, Output, digits};
+use crate::output::{Files, Output, number};
 use crate::plot::{self, Scatter};
 use crate::progress::Progress;
 
@@ -116,7 +116,7 @@ impl Arguments {
 
     /// Opens the output files.
     pub fn output(&self) -> Result<Table, Problem> {
-        let output = Output::create(&self.files, "sweep", &[TABLE, PICTURE])?;
+        let output = self.files.create("sweep", &[TABLE, PICTURE])?;
         Ok(Table { output })
     }
 }
@@ -188,7 +188,7 @@ fn write(output: &Output, rows: &[(DieterichRuina, Seen)]) -> Result<(), Problem
                 seen.peak_slip_rate,
             ];
             numbers
-                .map(digits)
+                .map(number)
                 .into_iter()
                 .chain([seen.status().into()])
         }),

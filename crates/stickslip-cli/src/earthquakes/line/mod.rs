@@ -17,7 +17,6 @@ use super::seas::{Places, files};
 use super::space_time::SpaceTime;
 use super::{Arguments, Failed, Station, YEAR};
 use crate::onsets::Onsets;
-use crate::output::Output;
 use crate::plot::Points;
 use crate::progress::Progress;
 
@@ -186,7 +185,7 @@ impl<'a> Line<'a> {
             "slip_rate_map.png",
             "summary.json",
         ];
-        let output = Output::create(&arguments.files, "earthquakes", &FILES)?;
+        let output = arguments.files.create("earthquakes", &FILES)?;
         let mut files = files(arguments, self.places(), &motion.snapshot())?;
         let (clock, mut progress) = (Instant::now(), Progress::default());
         let rates = [EVENT, 0.1 * EVENT];

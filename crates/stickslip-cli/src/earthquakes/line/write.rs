@@ -2,7 +2,7 @@
 
 use super::super::{Failed, pictures};
 use super::Line;
-use crate::output::{Output, digits};
+use crate::output::{Output, number};
 use crate::plot::{self, DARK, Panel};
 
 impl Line<'_> {
@@ -23,7 +23,7 @@ impl Line<'_> {
         output.table(
             history,
             columns,
-            rows.map(|row| row.map(digits).into_iter().take(count)),
+            rows.map(|row| row.map(number).into_iter().take(count)),
         )?;
         let panel = self.profiles.draw(
             Panel::new("slip [m]", "depth [km]").downward(),
