@@ -6,7 +6,7 @@ use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
 use stickslip::integrate::Stepper;
 use stickslip::state::LogTheta;
 use stickslip::{
-    BoundaryPart, Contact, DenseNewton, GeneralizedAlpha, RungeKutta, Scene, Simulation, Steps,
+    BoundaryPart, Contact, DenseNewton, GeneralizedAlpha, Run, RungeKutta, Scene, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -172,5 +172,33 @@ fn restored_runs_repeat_their_steps() -> Outcome {
     again.run(&plan, |_| ())?;
     assert_eq!(again.state().displacement, end.displacement);
     assert_eq!(again.state().velocity, end.velocity);
+    Ok(())
+}
+
+/// Times inside of steps with implicit cells: slip grows through them, and the steps have the bits of those without.
+#[test]
+fn samples_inside_of_steps_change_no_step() -> Outcome {
+    let patch = Patch {
+        count: 80,
+        soft: 30..50,
+        floor: 1e2,
+    };
+    let steps = Steps::adaptive(1e-4).until(0.6 * YEAR);
+    let times: Vec<f64> = (0..=500)
+        .map(|k| 0.6 * YEAR * f64::from(k) / 500.0)
+        .collect();
+    let mut slips = Vec::new();
+    let mut sampled = patch.explicit()?;
+    sampled.run_sampled(
+        &steps,
+        &times,
+        |at| slips.push(at.displacement[40][0]),
+        |_| (),
+    )?;
+    let mut plain = patch.explicit()?;
+    plain.run(&steps, |_| ())?;
+    assert_eq!(Stepper::state(&sampled), Stepper::state(&plain));
+    assert_eq!(slips.len(), times.len());
+    assert!(slips.windows(2).all(|pair| pair[1] > pair[0]));
     Ok(())
 }

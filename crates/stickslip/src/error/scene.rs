@@ -96,7 +96,7 @@ pub enum SceneError {
     /// Two vertices of contacts coincide. The mesh is open there, cut along a fault or not merged, and both walls would
     /// slide independently on a rigid surface.
     #[error(
-        "vertices {} and {} of contacts both lie at {at:?}: the mesh is open there (Mesh::nonconforming_nodes), and each \
+        "vertices {} and {} of contacts both lie at {at:?}: the mesh is open there, and each \
          wall would slide on a rigid surface of its own; {}",
         .vertices[0], .vertices[1], hint::ONE_WALL
     )]

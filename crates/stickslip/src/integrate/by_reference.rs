@@ -35,6 +35,18 @@ impl<S: Stepper<C> + ?Sized, const C: usize> Stepper<C> for &mut S {
         (**self).stable_step()
     }
 
+    fn is_dense(&self) -> bool {
+        (**self).is_dense()
+    }
+
+    fn show_inside(
+        &mut self,
+        times: &[f64],
+        show: &mut dyn FnMut(Snapshot<'_, C>),
+    ) -> Result<(), StepFailure> {
+        (**self).show_inside(times, show)
+    }
+
     fn set_stops(&mut self, stops: &[f64]) {
         (**self).set_stops(stops);
     }

@@ -6,6 +6,7 @@ use stickslip_core::compiled;
 
 use super::controller::Controller;
 use super::crossing::Crossing;
+use super::sampling::Sampling;
 use super::steps::{Adaptive, Constant, StepSize};
 use super::{RunReport, Stepper, Steps, StopReason};
 use crate::numerics::NUMERICS;
@@ -14,15 +15,18 @@ use crate::{ControlState, LocalError, Snapshot, StepError, StepFailure};
 /// Shows an accepted step; a break ends the run.
 type Observer<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> ControlFlow<()> + 'a;
 
+/// What a run looks for between the ends of its steps.
+type Between<'a, const C: usize> = (Option<Crossing<'a, C>>, Option<Sampling<'a, C>>);
+
 compiled! {
     /// Takes the steps of a plan; a failure has its place.
     pub(super) fn drive<C>(
         stepper: &mut dyn Stepper<C>,
         steps: &Steps,
-        crossing: Option<Crossing<'_, C>>,
+        between: Between<'_, C>,
         observe: &mut Observer<'_, C>,
     ) -> Result<RunReport, StepFailure> {
-        let driven = take(stepper, steps, crossing, observe);
+        let driven = take(stepper, steps, between, observe);
         driven.map_err(|failure| failure.placed(|vertex| stepper.snapshot().place_of(vertex)))
     }
 }
@@ -30,7 +34,7 @@ compiled! {
 fn take<const C: usize>(
     stepper: &mut dyn Stepper<C>,
     steps: &Steps,
-    mut crossing: Option<Crossing<'_, C>>,
+    (mut crossing, mut sampling): Between<'_, C>,
     observe: &mut Observer<'_, C>,
 ) -> Result<RunReport, StepFailure> {
     stepper.set_stops(&steps.stops);
@@ -42,6 +46,9 @@ fn take<const C: usize>(
     }
     if let Some(crossing) = &crossing {
         crossing.validate().map_err(refused)?;
+    }
+    if let Some(sampling) = &sampling {
+        sampling.validate(at.time).map_err(refused)?;
     }
     let mut progress = Progress::new(steps, at.time);
     let (constant, mut adapting) = match &steps.size {
@@ -60,6 +67,9 @@ fn take<const C: usize>(
     };
     if let Some(crossing) = &mut crossing {
         crossing.start(stepper)?;
+    }
+    if let Some(sampling) = &mut sampling {
+        sampling.advance(stepper)?;
     }
     loop {
         let at = stepper.snapshot();
@@ -88,7 +98,7 @@ fn take<const C: usize>(
                     }
                     progress.report.substepped += 1;
                     let count = &mut progress.report.substeps;
-                    if split(stepper, taken, count, observe)?.is_break() {
+                    if split(stepper, (taken, count), sampling.as_mut(), observe)?.is_break() {
                         progress.accept(taken);
                         return Ok(progress.finish(StopReason::Observer));
                     }
@@ -105,6 +115,9 @@ fn take<const C: usize>(
             let _ = observe(stepper.snapshot());
             return Ok(progress.finish(StopReason::Crossing));
         }
+        if let Some(sampling) = &mut sampling {
+            sampling.advance(stepper)?;
+        }
         if observe(stepper.snapshot()).is_break() {
             return Ok(progress.finish(StopReason::Observer));
         }
@@ -115,8 +128,8 @@ fn take<const C: usize>(
 /// last are shown.
 fn split<const C: usize>(
     stepper: &mut dyn Stepper<C>,
-    dt: f64,
-    count: &mut usize,
+    (dt, count): (f64, &mut usize),
+    mut sampling: Option<&mut Sampling<'_, C>>,
     observe: &mut Observer<'_, C>,
 ) -> Result<ControlFlow<()>, StepFailure> {
     let until = stepper.state().clock.after(dt).time();
@@ -129,6 +142,9 @@ fn split<const C: usize>(
                 *count += 1;
                 if last {
                     return Ok(ControlFlow::Continue(()));
+                }
+                if let Some(sampling) = &mut sampling {
+                    sampling.advance(stepper)?;
                 }
                 if observe(stepper.snapshot()).is_break() {
                     return Ok(ControlFlow::Break(()));

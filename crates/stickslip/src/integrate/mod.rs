@@ -11,6 +11,7 @@ mod error_control;
 mod landing;
 mod run;
 mod runge_kutta;
+mod sampling;
 mod stepper;
 mod steps;
 

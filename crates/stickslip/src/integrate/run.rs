@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::crossing::Crossing;
 use super::drive::drive;
+use super::sampling::Sampling;
 use super::stepper::Stepper;
 use super::{RunReport, Steps};
 use crate::{Simulation, Snapshot, StepFailure};
@@ -44,7 +45,57 @@ pub trait Run<const C: usize>: Stepper<C> {
         mut observe: impl FnMut(Snapshot<'_, C>) -> V,
     ) -> Result<RunReport, StepFailure> {
         let mut own = self;
-        drive(&mut own, steps, None, &mut |at| observe(at).flow())
+        drive(&mut own, steps, (None, None), &mut |at| observe(at).flow())
+    }
+
+    /// Takes the steps of a plan as [`run`](Run::run) does, and shows to `sample` the motion at increasing `times` \[s\],
+    /// from the present one to the end.
+    ///
+    /// [`RungeKutta`](crate::RungeKutta) shows times inside of its steps, which stay as they are, by a continuous extension
+    /// of order 4: slip and state as accurate as the steps, slip rates in balance with them. Other methods end a step at
+    /// each of the times, and so does `RungeKutta` where the state follows the normal stress or fields have a memory.
+    ///
+    /// ```
+    /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
+    /// use stickslip::{Run, RungeKutta, Steps};
+    ///
+    /// # let load = LoadPath::steady(1e-6);
+    /// # let slider = SpringSlider { stiffness: 2.5e8, normal_stress: 1e6, mass: 0.0, damping: 5e6, load };
+    /// let mut cycle = RungeKutta::new(slider.steady(FRICTION, AGING, 1.1e-6)?)?;
+    /// let times: Vec<f64> = (0..=600).map(f64::from).collect();
+    /// let mut slip = Vec::new();
+    /// let steps = Steps::adaptive(1e-6).until(600.0);
+    /// cycle.run_sampled(&steps, &times, |at| slip.push(at.displacement[0][0]), |_| ())?;
+    /// assert_eq!(slip.len(), 601);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`run`](Run::run); [`StepError::Control`](crate::StepError::Control) for times that decrease, are not
+    /// finite, or lie before the present one.
+    #[doc(alias("dense output", "t_eval"))]
+    fn run_sampled<V: IntoControlFlow>(
+        &mut self,
+        steps: &Steps,
+        times: &[f64],
+        mut sample: impl FnMut(Snapshot<'_, C>),
+        mut observe: impl FnMut(Snapshot<'_, C>) -> V,
+    ) -> Result<RunReport, StepFailure> {
+        let mut own = self;
+        let stopping;
+        let steps = if own.is_dense() {
+            steps
+        } else {
+            stopping = steps.clone().stopping_at(times.iter().copied());
+            &stopping
+        };
+        let sampling = Sampling {
+            times,
+            show: &mut sample,
+        };
+        drive(&mut own, steps, (None, Some(sampling)), &mut |at| {
+            observe(at).flow()
+        })
     }
 
     /// Runs until `value` passes zero from below, and ends at the first time at which it is not negative, to
@@ -71,7 +122,7 @@ pub trait Run<const C: usize>: Stepper<C> {
             before: None,
         };
         let mut own = self;
-        drive(&mut own, steps, Some(crossing), &mut |at| {
+        drive(&mut own, steps, (Some(crossing), None), &mut |at| {
             observe(at).flow()
         })
     }

@@ -53,6 +53,25 @@ pub trait Stepper<const C: usize>: Send {
         None
     }
 
+    /// Whether the method extends into its steps, see [`show_inside`](Self::show_inside); false by default.
+    fn is_dense(&self) -> bool {
+        false
+    }
+
+    /// Shows the motion at increasing `times` \[s\] inside of the last accepted step, to the accuracy of the step, and
+    /// keeps its end: later steps have the same bits. A method that [is not dense](Self::is_dense) shows nothing.
+    ///
+    /// # Errors
+    /// [`StepFailure`] for a time without a finite slip rate.
+    fn show_inside(
+        &mut self,
+        times: &[f64],
+        show: &mut dyn FnMut(Snapshot<'_, C>),
+    ) -> Result<(), StepFailure> {
+        let _ = (times, show);
+        Ok(())
+    }
+
     /// Sets the times at which data can jump \[s\], increasing: a step that ends at one of them sees the data from the
     /// left, one that begins there from the right. Ignored by default.
     fn set_stops(&mut self, stops: &[f64]) {

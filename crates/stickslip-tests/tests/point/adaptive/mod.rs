@@ -1,6 +1,7 @@
 //! Adaptive steps: what a tolerance buys, what a rejected step leaves, where a run ends.
 
 mod cycles;
+mod dense;
 mod errors;
 mod limits;
 mod orders;

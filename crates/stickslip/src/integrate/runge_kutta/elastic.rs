@@ -50,6 +50,12 @@ impl<const C: usize> Elastic<C> {
         multiply(stiffness, rates, &mut self.of_rates[1]);
     }
 
+    /// Takes the forces of the last stage for those of the first.
+    pub(super) fn repeat_last(&mut self) {
+        let [first, .., last] = &mut self.at_stages;
+        first.copy_from_slice(last);
+    }
+
     /// Forces at the second stage of a step, from those of the first.
     pub(super) fn at_second_stage(&mut self, dt: f64) {
         let [first, second, ..] = &mut self.at_stages;

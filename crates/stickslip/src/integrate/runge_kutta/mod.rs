@@ -2,6 +2,7 @@
 
 mod balance;
 mod damping;
+mod dense;
 mod elastic;
 mod error;
 mod many_cells;
@@ -27,6 +28,7 @@ use crate::{
     Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepError, StepFailure,
     StepState, Steps,
 };
+use dense::Dense;
 use elastic::Elastic;
 use many_cells::ManyCells;
 use soft::SoftCells;
@@ -113,6 +115,8 @@ pub struct RungeKutta<const C: usize> {
     /// The accepted step of `drive`.
     balanced: Option<Clock>,
     accepted: bool,
+    /// Copies while times inside of a step are shown.
+    dense: Option<Box<Dense<C>>>,
     threads: Threads,
     /// Times at which data can jump \[s\], increasing.
     stops: Vec<f64>,
@@ -267,6 +271,7 @@ compiled! {
             now,
             balanced: None,
             accepted: false,
+            dense: None,
             threads: Threads::new(),
             stops: Vec::new(),
         };

@@ -117,6 +117,18 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
         stable_step(self)
     }
 
+    fn is_dense(&self) -> bool {
+        RungeKutta::is_dense(self)
+    }
+
+    fn show_inside(
+        &mut self,
+        times: &[f64],
+        show: &mut dyn FnMut(Snapshot<'_, C>),
+    ) -> Result<(), StepFailure> {
+        show_inside(self, times, show)
+    }
+
     fn set_stops(&mut self, stops: &[f64]) {
         self.stops.clear();
         self.stops.extend_from_slice(stops);
@@ -162,6 +174,14 @@ compiled! {
             own.advance(dt, true)?;
             Ok(own.local_error(control))
         })
+    }
+
+    fn show_inside<C>(
+        own: &mut RungeKutta<C>,
+        times: &[f64],
+        show: &mut dyn FnMut(Snapshot<'_, C>),
+    ) -> Result<(), StepFailure> {
+        RungeKutta::show_inside(own, times, show)
     }
 
     fn stable_step<C>(own: &mut RungeKutta<C>) -> Option<f64> {

@@ -46,3 +46,13 @@ pub(super) const ERROR: [f64; STAGES] = [
     22.0 / 525.0,
     -1.0 / 40.0,
 ];
+/// The weights of the slopes in the part of the continuous extension that vanishes at both ends with its slope.
+pub(super) const DENSE: [f64; STAGES] = [
+    -12715105075.0 / 11282082432.0,
+    0.0,
+    87487479700.0 / 32700410799.0,
+    -10690763975.0 / 1880347072.0,
+    701980252875.0 / 199316789632.0,
+    -1453857185.0 / 822651844.0,
+    69997945.0 / 29380423.0,
+];
