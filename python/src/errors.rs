@@ -1,7 +1,10 @@
 //! Errors as exceptions: a class per enum, the variant as `kind`, its numbers as attributes.
 
+mod arguments;
+
+pub(crate) use arguments::{Bare, argument, misfit, of_argument};
+
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use stickslip::bie::KernelError;
 use stickslip::fem::ReadError;
@@ -46,6 +49,7 @@ fn hint_of_scene(error: &SceneError) -> Option<&'static str> {
         SceneError::Unbalanced { .. } => "change rate, state or stress, or give no slip rate",
         SceneError::Normal { .. } => "make the surfaces that meet there contacts of their own",
         SceneError::NotPaired { .. } => "use `name+` and `name-` of Mesh.split",
+        SceneError::NoBasis { .. } => "align contacts and fixed parts with the axes",
         _ => return None,
     })
 }
@@ -64,7 +68,13 @@ fn hint_of_step(error: &StepError) -> Option<&'static str> {
         StepError::TooManySteps {
             limit: Limit::Error(_),
             ..
-        } => RTOL,
+        } => "raise max_steps or rtol",
+        StepError::TooManySteps {
+            limit: Limit::Stability(_),
+            ..
+        } => "raise max_steps; larger cells and more normal stress allow longer steps",
+        StepError::Stage { .. } => "reduce dt, or give rtol for steps by error control",
+        StepError::NotCoupled { .. } => "reduce dt or use coupling=\"monolithic\"",
         _ => return None,
     })
 }
@@ -118,8 +128,6 @@ pub(crate) fn scene(py: Python<'_>, error: &SceneError) -> PyErr {
             HeldApart { vertex, component, value },
         });
         let message = worded(error.to_string(), error.hint(), hint_of_scene(error));
-        // The function that finds such nodes is not of this module.
-        let message = message.replace(" (Mesh::nonconforming_nodes)", "");
         exception(py, "SceneError", message, fields)
     })())
 }
@@ -281,19 +289,4 @@ pub(crate) fn lab(py: Python<'_>, error: &LabError) -> PyErr {
         });
         exception(py, "FitError", error.to_string(), fields)
     })())
-}
-
-/// An exception whose message begins with the name of an argument.
-pub(crate) fn of_argument(py: Python<'_>, name: &str, error: PyErr) -> PyErr {
-    made((|| {
-        let message = format!("{name}: {}", error.value(py));
-        error.value(py).setattr("args", (&message,))?;
-        error.value(py).setattr("message", message)?;
-        Ok(error)
-    })())
-}
-
-/// The exception of an argument with a value out of its range.
-pub(crate) fn argument(name: &str, requirement: &str, value: impl std::fmt::Debug) -> PyErr {
-    PyValueError::new_err(format!("{name} must be {requirement}, is {value:?}"))
 }

@@ -2,10 +2,10 @@
 
 use pyo3::prelude::*;
 use stickslip::friction::{DieterichRuina, FrictionLaw, RegularizedDieterichRuina};
-use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
+use stickslip::state::{Dieterich, KatoTullis, LogTheta, Nagata, PerrinRiceZheng, Ruina, StateLaw};
 
 use crate::arguments::{non_negative, positive};
-use crate::errors::argument;
+use crate::errors::{self, argument};
 use crate::own_laws::{OwnFriction, OwnState};
 use crate::raised::Raised;
 
@@ -27,6 +27,12 @@ pub(crate) enum Evolution {
     Aging(Dieterich),
     /// The slip law.
     Slip(Ruina),
+    /// That of Perrin, Rice and Zheng.
+    PerrinRiceZheng(PerrinRiceZheng),
+    /// That of Kato and Tullis.
+    KatoTullis(KatoTullis),
+    /// That of Nagata and others; friction is that with its state.
+    Nagata(Nagata),
     /// Of the user.
     Own(OwnState),
 }
@@ -69,19 +75,86 @@ impl Evolution {
     pub(crate) fn of(
         given: &Bound<'_, PyAny>,
         parameters: impl FnOnce() -> PyResult<DieterichRuina>,
+        further: Further,
     ) -> PyResult<Self> {
         match given.extract::<String>() {
-            Ok(name) => Self::named(&name, &parameters()?),
+            Ok(name) => Self::named(&name, &parameters()?, further),
             Err(_) => OwnState::new("law", given).map(Self::Own),
         }
     }
 
     /// The law of a name.
-    pub(crate) fn named(name: &str, parameters: &DieterichRuina) -> PyResult<Self> {
+    pub(crate) fn named(
+        name: &str,
+        parameters: &DieterichRuina,
+        further: Further,
+    ) -> PyResult<Self> {
+        let slip_distance = parameters.slip_distance;
+        let need = |argument: &str, value: Option<f64>| match value {
+            Some(value) => positive(argument, value),
+            None => Err(errors::argument(
+                argument,
+                &format!("given for law={name:?}"),
+                "None",
+            )),
+        };
+        for (argument, law, value) in [
+            ("Vc", "kato-tullis", further.aging_velocity),
+            ("c", "nagata", further.stress_weight),
+        ] {
+            if let (true, Some(value)) = (name != law, value) {
+                return Err(errors::argument(
+                    argument,
+                    &format!("None but for law={law:?}"),
+                    value,
+                ));
+            }
+        }
         match name {
             "aging" => Ok(Self::Aging(parameters.aging())),
             "slip" => Ok(Self::Slip(parameters.slip())),
-            _ => Err(argument("law", "\"aging\" or \"slip\"", name)),
+            "perrin-rice-zheng" => Ok(Self::PerrinRiceZheng(PerrinRiceZheng { slip_distance })),
+            "kato-tullis" => Ok(Self::KatoTullis(KatoTullis {
+                slip_distance,
+                aging_velocity: need("Vc", further.aging_velocity)?,
+            })),
+            "nagata" => {
+                positive("b", parameters.b)?;
+                let weight = need("c", further.stress_weight)?;
+                Ok(Self::Nagata(parameters.weakened_by_stress(weight).1))
+            }
+            _ => Err(argument("law", LAWS, name)),
+        }
+    }
+
+    /// The logarithm of `theta` at a state and a slip rate.
+    pub(crate) fn ln_theta(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        match self {
+            Self::Nagata(law) => law.ln_theta(state, slip_rate),
+            _ => state.0,
+        }
+    }
+
+    /// The state with this `theta` \[s\] at a slip rate.
+    pub(crate) fn state(&self, theta: f64, slip_rate: f64) -> LogTheta {
+        match self {
+            Self::Nagata(law) => law.state(theta, slip_rate),
+            _ => LogTheta(theta.ln()),
+        }
+    }
+
+    /// The friction of the state of this law: Nagata's has a part of `a`.
+    pub(crate) fn friction(&self, friction: Friction) -> PyResult<Friction> {
+        match (self, friction) {
+            (Self::Nagata(law), Friction::CutOff(parameters)) => {
+                let (parameters, _) = parameters.weakened_by_stress(law.stress_weight);
+                Ok(Friction::CutOff(parameters))
+            }
+            (Self::Nagata(_), _) => {
+                let requirement = "\"cut-off\" for law=\"nagata\"";
+                Err(argument("friction", requirement, "another one"))
+            }
+            (_, friction) => Ok(friction),
         }
     }
 
@@ -90,9 +163,25 @@ impl Evolution {
         match self {
             Self::Aging(law) => Box::new(*law),
             Self::Slip(law) => Box::new(*law),
+            Self::PerrinRiceZheng(law) => Box::new(*law),
+            Self::KatoTullis(law) => Box::new(*law),
+            Self::Nagata(law) => Box::new(*law),
             Self::Own(law) => Box::new(law.reporting_to(raised)),
         }
     }
+}
+
+/// The names of state laws.
+const LAWS: &str =
+    "\"aging\", \"slip\", \"perrin-rice-zheng\", \"kato-tullis\", \"nagata\" or a law of your own";
+
+/// Parameters of some state laws only.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Further {
+    /// `Vc` of Kato and Tullis [m/s].
+    pub(crate) aging_velocity: Option<f64>,
+    /// `c` of Nagata.
+    pub(crate) stress_weight: Option<f64>,
 }
 
 /// A parameter of a law by name, which must be given.

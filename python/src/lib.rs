@@ -9,7 +9,10 @@ mod lab;
 mod laws;
 mod memory;
 mod own_laws;
+mod plain;
+mod progress;
 mod raised;
+mod restart;
 mod run;
 mod slider;
 mod slider_run;
@@ -33,7 +36,10 @@ mod _stickslip {
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        use pyo3::types::PyModuleMethods;
+
         one_thread();
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         super::exit::register(module)
     }
 

@@ -3,9 +3,15 @@
 
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
 use stickslip::Snapshot;
+use stickslip::state::LogTheta;
 
-/// The history of a spring slider: arrays with one entry per accepted step, the initial values first.
+use crate::laws::Evolution;
+use crate::plain::{Reduced, fields, helper, ranges, reduced};
+
+/// The history of a spring slider: arrays with one entry per accepted step, the initial values first, or per time that was
+/// asked for.
 #[pyclass(frozen, get_all, module = "stickslip")]
 pub(crate) struct SliderRun {
     /// Time [s].
@@ -14,18 +20,61 @@ pub(crate) struct SliderRun {
     V: Py<PyArray1<f64>>,
     /// State [s].
     theta: Py<PyArray1<f64>>,
-    /// Coefficient of friction.
+    /// Coefficient of friction, positive in any direction of slip.
     mu: Py<PyArray1<f64>>,
     /// Slip since time 0 [m].
     slip: Py<PyArray1<f64>>,
+    /// Shear stress [Pa], of the sign of the slip rate; without damping and mass that of the spring.
+    shear_stress: Py<PyArray1<f64>>,
     /// The number of steps that were rejected.
     rejected: usize,
+    /// The end of the run, from which another one goes on; it can be pickled.
+    state: Py<PyBytes>,
 }
 
 #[pymethods]
 impl SliderRun {
+    #[new]
+    #[pyo3(signature = (*, t, V, theta, mu, slip, shear_stress, rejected, state))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn new(
+        t: Py<PyArray1<f64>>,
+        V: Py<PyArray1<f64>>,
+        theta: Py<PyArray1<f64>>,
+        mu: Py<PyArray1<f64>>,
+        slip: Py<PyArray1<f64>>,
+        shear_stress: Py<PyArray1<f64>>,
+        rejected: usize,
+        state: Py<PyBytes>,
+    ) -> Self {
+        Self {
+            t,
+            V,
+            theta,
+            mu,
+            slip,
+            shear_stress,
+            rejected,
+            state,
+        }
+    }
+
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         self.t.bind(py).as_any().len()
+    }
+
+    /// A table of pandas with a row per sample.
+    fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let columns = fields!(py, self; t, V, theta, mu, slip, shear_stress);
+        helper(py, "_frames", "columns", (columns,))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Self>(py, self.fields(py)?)
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        ranges(&self.__repr__(py)?, &self.fields(py)?)
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
@@ -38,30 +87,37 @@ impl SliderRun {
 /// Samples of a run.
 pub(crate) struct Samples {
     origin: f64,
-    /// t, V, theta, mu, slip.
-    columns: [Vec<f64>; 5],
+    /// t, V, theta, mu, slip, shear stress.
+    columns: [Vec<f64>; 6],
 }
 
 impl Samples {
-    /// The sample at the beginning.
-    pub(crate) fn of(at: &Snapshot<'_, 1>) -> Self {
-        let mut samples = Self {
-            origin: at.displacement[0][0],
+    /// No samples yet, of a block that was at `origin` [m] at time 0.
+    pub(crate) fn new(origin: f64) -> Self {
+        Self {
+            origin,
             columns: Default::default(),
-        };
-        samples.add(at);
-        samples
+        }
+    }
+
+    /// Sets the times of the samples to those asked for, which clocks meet to rounding.
+    pub(crate) fn at(&mut self, times: &[f64]) {
+        let [own, ..] = &mut self.columns;
+        let count = own.len();
+        own.copy_from_slice(&times[..count]);
     }
 
     /// Appends a sample.
-    pub(crate) fn add(&mut self, at: &Snapshot<'_, 1>) {
+    pub(crate) fn add(&mut self, at: &Snapshot<'_, 1>, law: &Evolution) {
         let contact = at.contact(0);
+        let state = LogTheta(contact.state(0));
         let row = [
             at.time,
             at.velocity[0][0],
-            contact.state(0).exp(),
+            law.ln_theta(state, contact.slip_rate(0)).exp(),
             contact.coefficient(0),
             at.displacement[0][0] - self.origin,
+            contact.traction(0)[0],
         ];
         for (column, value) in self.columns.iter_mut().zip(row) {
             column.push(value);
@@ -71,8 +127,13 @@ impl Samples {
 
 impl SliderRun {
     /// The arrays of samples.
-    pub(crate) fn new(py: Python<'_>, samples: Samples, rejected: usize) -> Self {
-        let [t, V, theta, mu, slip] = samples
+    pub(crate) fn of(
+        py: Python<'_>,
+        samples: Samples,
+        rejected: usize,
+        state: Bound<'_, PyBytes>,
+    ) -> Self {
+        let [t, V, theta, mu, slip, shear_stress] = samples
             .columns
             .map(|column| column.into_pyarray(py).unbind());
         Self {
@@ -81,7 +142,13 @@ impl SliderRun {
             theta,
             mu,
             slip,
+            shear_stress,
             rejected,
+            state: state.unbind(),
         }
+    }
+
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        Ok(fields!(py, self; t, V, theta, mu, slip, shear_stress, rejected, state))
     }
 }

@@ -1,6 +1,6 @@
 """Rate- and state-dependent friction: spring sliders, faults and laws of your own. Units are SI."""
 
-from ._errors import FaultError, FileError, FitError, FrictionLawError, MeshError, SceneError, StateLawError, StepError, StickslipError
+from ._errors import ArgumentError, ArgumentTypeError, ArgumentValueError, FaultError, FileError, FitError, FrictionLawError, MeshError, SceneError, StateLawError, StepError, StickslipError
 from ._stickslip import (
     Body,
     BodyRun,
@@ -26,8 +26,12 @@ from ._stickslip import (
     slide_hold_slide,
     velocity_step,
 )
+from ._stickslip import __version__ as __version__
 
 __all__ = [
+    "ArgumentError",
+    "ArgumentTypeError",
+    "ArgumentValueError",
     "Body",
     "BodyRun",
     "BodySimulation",

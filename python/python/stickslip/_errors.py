@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 
 class StickslipError(Exception):
     """An error of the library.
@@ -56,3 +58,28 @@ class StepError(StickslipError, ArithmeticError):
     Where it failed at a vertex of a contact, `contact` is the number of the contact, `point` the position [m] and `cell`
     the row and the column of a plane of cells; each is None where it is unknown.
     """
+
+
+class ArgumentError(StickslipError):
+    """An argument that is none of its kind. `argument` is its name."""
+
+    argument: str | None = None
+
+    def add_note(self, note: str) -> None:
+        """Takes the name of the argument, which the binding adds as a note, into the message."""
+        begin, _, name = note.partition("'")
+        if begin != "while processing " or self.argument is not None:
+            if sys.version_info >= (3, 11):
+                super().add_note(note)
+            return
+        self.argument = name.rstrip("'")
+        self.message = f"{self.argument}: {self.message}"
+        self.args = (self.message, *self.args[1:])
+
+
+class ArgumentTypeError(ArgumentError, TypeError):
+    """An argument of a wrong type."""
+
+
+class ArgumentValueError(ArgumentError, ValueError):
+    """An argument whose value its type does not have, such as a negative number of cells."""

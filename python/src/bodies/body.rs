@@ -11,11 +11,11 @@ use super::mesh::{AnySpace, Mesh};
 use super::part::{AnyTrace, Part};
 use super::reduced::Modes;
 use super::simulation::{AnyStepper, BodySimulation};
-use super::start::{Start, named};
-use crate::arguments::{finite, non_negative, positive};
+use super::start::{Start, scheme_of};
+use crate::arguments::{named, non_negative, positive};
 use crate::errors::{self, argument};
 use crate::exit::Call;
-use crate::laws::{Evolution, Friction, given, parameters};
+use crate::laws::{Evolution, Friction, Further, given, parameters};
 use crate::memory::{REDUCED_PAIR, check_memory};
 use crate::raised::Raised;
 
@@ -47,18 +47,20 @@ impl Body {
     #[pyo3(signature = (mesh, *, E, nu, density=0.0, gravity=None, antiplane=false))]
     #[expect(non_snake_case, reason = "names of the field")]
     fn new(
-        mesh: &Mesh,
-        E: f64,
-        nu: f64,
-        density: f64,
-        gravity: Option<Vec<f64>>,
-        antiplane: bool,
+        #[pyo3(from_py_with = named)] mesh: Bound<'_, Mesh>,
+        #[pyo3(from_py_with = named)] E: f64,
+        #[pyo3(from_py_with = named)] nu: f64,
+        #[pyo3(from_py_with = named)] density: f64,
+        #[pyo3(from_py_with = named)] gravity: Option<Vec<f64>>,
+        #[pyo3(from_py_with = named)] antiplane: bool,
     ) -> PyResult<Self> {
         let elastic = Elastic {
             young_modulus: positive("E", E)?,
-            poisson_ratio: finite("nu", nu)?,
+            poisson_ratio: (-1.0 < nu && nu < 0.5)
+                .then_some(nu)
+                .ok_or_else(|| argument("nu", "a Poisson's ratio > -1 and < 0.5", nu))?,
         };
-        let space = mesh.space.clone();
+        let space = mesh.get().space.clone();
         if antiplane && matches!(space, AnySpace::Space(_)) {
             return Err(argument(
                 "antiplane",
@@ -91,11 +93,16 @@ impl Body {
     ///     part: a Part of the body's mesh.
     ///     components: the letters of the fixed components, such as "x" or "xy"; by default all.
     #[pyo3(signature = (part, components=None))]
-    fn fix(&mut self, py: Python<'_>, part: &Part, components: Option<&str>) -> PyResult<()> {
+    fn fix(
+        &mut self,
+        #[pyo3(from_py_with = named)] part: Bound<'_, Part>,
+        #[pyo3(from_py_with = named)] components: Option<&str>,
+    ) -> PyResult<()> {
+        let part = part.get();
         self.check(part, "part")?;
         let count = self.components();
         self.conditions
-            .push(Condition::new(py, count, part, components, None)?);
+            .push(Condition::new(count, part, components, None)?);
         Ok(())
     }
 
@@ -108,15 +115,15 @@ impl Body {
     #[pyo3(signature = (part, velocity, components=None))]
     fn drive(
         &mut self,
-        py: Python<'_>,
-        part: &Part,
-        velocity: Velocity,
-        components: Option<&str>,
+        #[pyo3(from_py_with = named)] part: Bound<'_, Part>,
+        #[pyo3(from_py_with = named)] velocity: Velocity,
+        #[pyo3(from_py_with = named)] components: Option<&str>,
     ) -> PyResult<()> {
+        let part = part.get();
         self.check(part, "part")?;
         let (count, velocity) = (self.components(), Some(velocity));
         self.conditions
-            .push(Condition::new(py, count, part, components, velocity)?);
+            .push(Condition::new(count, part, components, velocity)?);
         Ok(())
     }
 
@@ -133,24 +140,24 @@ impl Body {
     ///         else tension is an error.
     #[pyo3(signature = (part, *, normal_stress, a=None, b=None, Dc=None, mu0=0.6, V0=1e-6, theta, opposite=None,
                         friction=None, law=None, cohesion=0.0, allow_opening=false),
-           text_signature = "($self, part, *, normal_stress, a, b, Dc, mu0=0.6, V0=1e-06, theta, opposite=None, friction='cut-off', law='aging', cohesion=0.0, allow_opening=False)")]
+           text_signature = "($self, part, *, normal_stress, a=None, b=None, Dc=None, mu0=0.6, V0=1e-06, theta, opposite=None, friction='cut-off', law='aging', cohesion=0.0, allow_opening=False)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn contact(
         &mut self,
-        part: &Part,
-        normal_stress: Pressure,
-        a: Option<f64>,
-        b: Option<f64>,
-        Dc: Option<f64>,
-        mu0: f64,
-        V0: f64,
-        theta: PerVertex,
-        opposite: Option<&Part>,
+        #[pyo3(from_py_with = named)] part: Bound<'_, Part>,
+        #[pyo3(from_py_with = named)] normal_stress: Pressure,
+        #[pyo3(from_py_with = named)] a: Option<f64>,
+        #[pyo3(from_py_with = named)] b: Option<f64>,
+        #[pyo3(from_py_with = named)] Dc: Option<f64>,
+        #[pyo3(from_py_with = named)] mu0: f64,
+        #[pyo3(from_py_with = named)] V0: f64,
+        #[pyo3(from_py_with = named)] theta: PerVertex,
+        #[pyo3(from_py_with = named)] opposite: Option<Bound<'_, Part>>,
         friction: Option<&Bound<'_, PyAny>>,
         law: Option<&Bound<'_, PyAny>>,
-        cohesion: f64,
-        allow_opening: bool,
+        #[pyo3(from_py_with = named)] cohesion: f64,
+        #[pyo3(from_py_with = named)] allow_opening: bool,
     ) -> PyResult<()> {
         let _call = Call::begin()?;
         let parameters = || {
@@ -158,20 +165,20 @@ impl Body {
             parameters(fitted, [mu0, V0])
         };
         let positive = |theta: f64| theta > 0.0 && theta.is_finite();
-        let theta = theta.checked("theta", part.count(), "finite and positive", positive)?;
+        let theta = theta.checked("theta", part.get().count(), "finite and positive", positive)?;
         let laws = Laws::RateAndState(
             match friction {
                 Some(friction) => Friction::of(friction, parameters)?,
                 None => Friction::named("cut-off", parameters()?)?,
             },
             match law {
-                Some(law) => Evolution::of(law, parameters)?,
-                None => Evolution::named("aging", &parameters()?)?,
+                Some(law) => Evolution::of(law, parameters, Further::default())?,
+                None => Evolution::named("aging", &parameters()?, Further::default())?,
             },
             theta,
         );
         self.add(
-            (part, opposite),
+            (part.get(), opposite.as_ref().map(Bound::get)),
             laws,
             normal_stress,
             (cohesion, allow_opening),
@@ -185,16 +192,16 @@ impl Body {
     #[pyo3(signature = (part, *, normal_stress, coefficient, opposite=None, cohesion=0.0, allow_opening=false))]
     fn coulomb(
         &mut self,
-        part: &Part,
-        normal_stress: Pressure,
-        coefficient: f64,
-        opposite: Option<&Part>,
-        cohesion: f64,
-        allow_opening: bool,
+        #[pyo3(from_py_with = named)] part: Bound<'_, Part>,
+        #[pyo3(from_py_with = named)] normal_stress: Pressure,
+        #[pyo3(from_py_with = named)] coefficient: f64,
+        #[pyo3(from_py_with = named)] opposite: Option<Bound<'_, Part>>,
+        #[pyo3(from_py_with = named)] cohesion: f64,
+        #[pyo3(from_py_with = named)] allow_opening: bool,
     ) -> PyResult<()> {
         let laws = Laws::Coulomb(non_negative("coefficient", coefficient)?);
         self.add(
-            (part, opposite),
+            (part.get(), opposite.as_ref().map(Bound::get)),
             laws,
             normal_stress,
             (cohesion, allow_opening),
@@ -223,16 +230,16 @@ impl Body {
     fn simulation(
         &self,
         py: Python<'_>,
-        scheme: &str,
-        solver: &str,
-        equilibrium: bool,
-        zero_acceleration: bool,
-        coupling: &str,
-        state_update: Option<&str>,
-        tolerance: Option<f64>,
-        absolute_tolerance: Option<f64>,
-        reduced_up_to: Option<f64>,
-        reduced_for_step: Option<f64>,
+        #[pyo3(from_py_with = named)] scheme: &str,
+        #[pyo3(from_py_with = named)] solver: &str,
+        #[pyo3(from_py_with = named)] equilibrium: bool,
+        #[pyo3(from_py_with = named)] zero_acceleration: bool,
+        #[pyo3(from_py_with = named)] coupling: &str,
+        #[pyo3(from_py_with = named)] state_update: Option<&str>,
+        #[pyo3(from_py_with = named)] tolerance: Option<f64>,
+        #[pyo3(from_py_with = named)] absolute_tolerance: Option<f64>,
+        #[pyo3(from_py_with = named)] reduced_up_to: Option<f64>,
+        #[pyo3(from_py_with = named)] reduced_for_step: Option<f64>,
     ) -> PyResult<BodySimulation> {
         let _call = Call::begin()?;
         let multigrid = match solver {
@@ -269,7 +276,7 @@ impl Body {
             check_memory(name, &[unknowns, unknowns], REDUCED_PAIR)?;
         }
         let start = Start {
-            scheme: named(scheme)?,
+            scheme: scheme_of(scheme)?,
             multigrid,
             modes,
             equilibrium,

@@ -5,20 +5,34 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use stickslip::{BlockMatrix, BoundaryPart, Components, Scene};
 
+use super::friction::PerVertex;
 use super::part::{AnyTrace, Part};
+use crate::arguments::wrong_type;
 use crate::errors::argument;
 use crate::exit::attached;
 use crate::raised::Raised;
 
 /// A velocity: its components, or a function of time.
-#[derive(FromPyObject)]
 pub(super) enum Velocity {
     /// Components [m/s].
-    #[pyo3(transparent, annotation = "components")]
     Constant(Vec<f64>),
     /// A function of time \[s\].
-    #[pyo3(transparent, annotation = "function of time")]
     Function(Py<PyAny>),
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Velocity {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if given.is_callable() {
+            return Ok(Self::Function(given.to_owned().unbind()));
+        }
+        match given.extract::<PerVertex>() {
+            Ok(PerVertex::Uniform(value)) => Ok(Self::Constant(vec![value])),
+            Ok(PerVertex::Each(values)) => Ok(Self::Constant(values)),
+            _ => Err(wrong_type("components [m/s] or a function of time", &given)),
+        }
+    }
 }
 
 /// A fixed or driven part.
@@ -31,7 +45,6 @@ pub(super) struct Condition {
 impl Condition {
     /// The condition on these components, all of them by default.
     pub(super) fn new(
-        py: Python<'_>,
         count: usize,
         part: &Part,
         components: Option<&str>,
@@ -43,11 +56,6 @@ impl Condition {
             {
                 let requirement = format!("of {count} finite components");
                 return Err(argument("velocity", &requirement, values));
-            }
-            Some(Velocity::Function(function)) if !function.bind(py).is_callable() => {
-                let given = function.bind(py).repr()?.to_string();
-                let requirement = "a list of components or a function of time";
-                return Err(argument("velocity", requirement, given));
             }
             _ => {}
         }

@@ -1,49 +1,85 @@
 //! Contacts: friction on a rigid surface, or between the two sides of a fault.
 
-use numpy::{PyArray1, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
+use numpy::{
+    PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
 use stickslip::friction::{FrictionLaw, Tresca};
 use stickslip::state::{LogTheta, Theta};
 use stickslip::{BlockMatrix, BoundaryPart, Contact as SceneContact, NormalStress, Scene};
 
 use super::condition::boundary;
 use super::part::Part;
-use crate::errors::argument;
+use crate::arguments::wrong_type;
+use crate::errors::{Bare, argument};
 use crate::laws::{Evolution, Friction};
 use crate::raised::Raised;
 
 /// One value for all vertices, or one each.
-#[derive(FromPyObject)]
+#[derive(Clone)]
 pub(crate) enum PerVertex {
     /// One for all.
-    #[pyo3(transparent, annotation = "number")]
     Uniform(f64),
     /// In the order of the part's vertices.
-    #[pyo3(transparent, annotation = "array")]
-    Each(#[pyo3(from_py_with = reals)] Vec<f64>),
+    Each(Vec<f64>),
+    /// An array of several dimensions, with its shape.
+    Shaped(Vec<f64>, Vec<usize>),
 }
 
-/// The numbers of a sequence, of real ones.
-fn reals(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    if let Ok(array) = given.cast::<PyArray1<f64>>() {
-        return Ok(array.try_readonly()?.as_array().to_vec());
+impl<'a, 'py> FromPyObject<'a, 'py> for PerVertex {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(value) = given.extract() {
+            return Ok(Self::Uniform(value));
+        }
+        // Without numpy, whose import takes time.
+        let is_list = given.is_instance_of::<PyList>() || given.is_instance_of::<PyTuple>();
+        if is_list && let Ok(values) = given.extract() {
+            return Ok(Self::Each(values));
+        }
+        let array = match given.cast::<PyArrayDyn<f64>>() {
+            Ok(array) => array.to_owned(),
+            Err(_) => numbers(&given)?,
+        };
+        let (shape, array) = (array.shape().to_vec(), array.try_readonly()?);
+        let values = array.as_array().iter().copied().collect();
+        Ok(match shape.len() {
+            1 => Self::Each(values),
+            _ => Self::Shaped(values, shape),
+        })
     }
-    real(given)?;
-    given.extract()
 }
 
-/// Refuses an array of complex numbers, whose imaginary parts numpy would drop.
-pub(crate) fn real(given: &Bound<'_, PyAny>) -> PyResult<()> {
-    if given
-        .cast::<PyUntypedArray>()
-        .is_ok_and(|array| array.dtype().kind() == b'c')
-    {
-        return Err(PyTypeError::new_err(
-            "complex numbers in the place of real ones",
-        ));
+/// The array of a sequence of real numbers.
+fn numbers<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let refused = || wrong_type("a number or an array of numbers", given);
+    let numpy = given.py().import("numpy")?;
+    // Of sequences of several lengths there is none.
+    let array = numpy
+        .call_method1("asarray", (given,))
+        .map_err(|_| refused())?;
+    let array = array.cast_into::<PyUntypedArray>()?;
+    match array.dtype().kind() {
+        b'b' | b'i' | b'u' | b'f' => {}
+        b'c' => {
+            let message = "complex numbers in the place of real ones";
+            return Err(PyTypeError::new_err(message));
+        }
+        // Objects such as fractions, but neither None nor text, which numpy makes numbers of.
+        b'O' => {
+            let objects = array.call_method0("ravel")?.call_method0("tolist")?;
+            let values: Vec<f64> = objects.extract().map_err(|_| refused())?;
+            let shape = array.getattr("shape")?;
+            let flat = numpy.call_method1("array", (values,))?;
+            return Ok(flat.call_method1("reshape", (shape,))?.cast_into()?);
+        }
+        _ => return Err(refused()),
     }
-    Ok(())
+    let array = array.call_method1("astype", ("float64",))?;
+    Ok(array.cast_into()?)
 }
 
 impl PerVertex {
@@ -59,10 +95,16 @@ impl PerVertex {
             Self::Uniform(value) if legal(value) => return Ok(vec![value; count]),
             Self::Uniform(value) => return Err(argument(name, requirement, value)),
             Self::Each(values) => values,
+            Self::Shaped(_, shape) => {
+                let requirement = format!("one number, or an array of {count} numbers");
+                let shape = format!("an array of shape {shape:?}");
+                return Err(argument(name, &requirement, Bare(shape)));
+            }
         };
         if values.len() != count {
-            let requirement = format!("one number, or one for each of {count} vertices");
-            return Err(argument(name, &requirement, values.len()));
+            let requirement = format!("one number, or an array of {count} numbers");
+            let given = format!("an array of {} numbers", values.len());
+            return Err(argument(name, &requirement, Bare(given)));
         }
         match values.iter().position(|&value| !legal(value)) {
             Some(n) => Err(argument(&format!("{name}[{n}]"), requirement, values[n])),
@@ -72,14 +114,23 @@ impl PerVertex {
 }
 
 /// A normal stress: given, or that of the deformation.
-#[derive(FromPyObject)]
 pub(super) enum Pressure {
     /// Of the body.
-    #[pyo3(transparent, annotation = "\"body\"")]
     Named(String),
     /// Prescribed \[Pa\].
-    #[pyo3(transparent, annotation = "number or array")]
     Given(PerVertex),
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Pressure {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(name) = given.extract() {
+            return Ok(Self::Named(name));
+        }
+        let values = given.extract().map(Self::Given);
+        values.map_err(|_| wrong_type("numbers or \"body\"", &given))
+    }
 }
 
 impl Pressure {

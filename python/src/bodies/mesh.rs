@@ -10,7 +10,7 @@ use stickslip::nalgebra::SVector;
 
 use super::part::{AnyTrace, Part};
 use super::predicate::Predicate;
-use crate::arguments::positive;
+use crate::arguments::{named, positive};
 use crate::errors::{self, argument};
 use crate::exit::Call;
 use crate::memory::{MESH_CELL, check_memory};
@@ -59,9 +59,9 @@ impl Mesh {
     #[pyo3(signature = (size, cells, origin=None))]
     fn grid(
         py: Python<'_>,
-        size: Vec<f64>,
-        cells: Vec<usize>,
-        origin: Option<Vec<f64>>,
+        #[pyo3(from_py_with = named)] size: Vec<f64>,
+        #[pyo3(from_py_with = named)] cells: Vec<usize>,
+        #[pyo3(from_py_with = named)] origin: Option<Vec<f64>>,
     ) -> PyResult<Self> {
         for (n, &length) in size.iter().enumerate() {
             positive(&format!("size[{n}]"), length)?;
@@ -93,7 +93,7 @@ impl Mesh {
     /// Args:
     ///     path: an .msh file of version 2.2 or 4.1; tetrahedra, or triangles where there are none.
     #[staticmethod]
-    fn gmsh(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+    fn gmsh(py: Python<'_>, #[pyo3(from_py_with = named)] path: PathBuf) -> PyResult<Self> {
         let space = match gmsh::read::<3>(&path) {
             Err(ReadError::Empty {
                 what: "elements", ..
@@ -108,7 +108,12 @@ impl Mesh {
     }
 
     /// A mesh with the faces whose vertices all satisfy `on(x)` as an inner surface of this name, for `split`.
-    fn with_surface(&self, py: Python<'_>, name: &str, on: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn with_surface(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = named)] name: &str,
+        on: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
         let _call = Call::begin()?;
         let (space, predicate) = (self.unrefined()?, Predicate::new(on));
         let space = each!(space, space => {
@@ -122,7 +127,11 @@ impl Mesh {
 
     /// A mesh that is cut along inner surfaces, with the parts `name+` and `name-` of its boundary.
     #[pyo3(signature = (*names))]
-    fn split(&self, py: Python<'_>, names: Vec<String>) -> PyResult<Self> {
+    fn split(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = named)] names: Vec<String>,
+    ) -> PyResult<Self> {
         if names.is_empty() {
             return Err(argument("names", "at least one inner surface", &names));
         }
@@ -137,7 +146,11 @@ impl Mesh {
 
     /// A mesh whose edges are halved so many times. It keeps its coarser meshes for multigrid.
     #[pyo3(signature = (levels=1))]
-    fn refined(&self, py: Python<'_>, levels: usize) -> PyResult<Self> {
+    fn refined(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = named)] levels: usize,
+    ) -> PyResult<Self> {
         let (cells, halved) =
             each!(&self.space, space => (space.mesh().cell_count(), halved(space)));
         let children = halved.saturating_pow(u32::try_from(levels).unwrap_or(u32::MAX));

@@ -12,7 +12,7 @@ mod start;
 mod state;
 
 pub(crate) use body::Body;
-pub(crate) use friction::{PerVertex, real};
+pub(crate) use friction::PerVertex;
 pub(crate) use mesh::Mesh;
 pub(crate) use part::Part;
 pub(crate) use simulation::{BodyRun, BodySimulation};

@@ -1,22 +1,25 @@
 //! Runs of a body.
 
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 
 use numpy::PyArray1;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use stickslip::integrate::{RunReport, Stepper};
-use stickslip::{Snapshot, StepState, Steps};
+use stickslip::{Snapshot, Steps};
 
 use super::reduced::Whole;
 use super::state::BodyState;
-use crate::arguments::{count, positive};
+use crate::arguments::{count, named, positive};
 use crate::errors::{self, argument};
 use crate::exit::Call;
+use crate::progress::Progress;
 use crate::raised::Raised;
-use crate::run::{Ended, run};
+use crate::restart::{self, state_bytes};
+use crate::run::{Course, Ended, run};
 
 /// A body in time. Threads may share it; it runs in one of them at a time.
 #[pyclass(frozen, module = "stickslip")]
@@ -63,14 +66,16 @@ impl BodySimulation {
     ///     dt: constant steps [s], > 0; the last one is shortened to `until`.
     ///     rtol: steps by error control instead, with this relative tolerance.
     ///     every: number of steps between two states.
-    #[pyo3(signature = (*, until=None, steps=None, dt=None, rtol=None, every=1))]
+    ///     progress: whether a bar of tqdm, if it is installed, or a line shows the time reached, of a run with `until`.
+    #[pyo3(signature = (*, until=None, steps=None, dt=None, rtol=None, every=1, progress=false))]
     fn run(
         slf: Bound<'_, Self>,
-        until: Option<f64>,
-        steps: Option<usize>,
-        dt: Option<f64>,
-        rtol: Option<f64>,
-        every: usize,
+        #[pyo3(from_py_with = named)] until: Option<f64>,
+        #[pyo3(from_py_with = named)] steps: Option<usize>,
+        #[pyo3(from_py_with = named)] dt: Option<f64>,
+        #[pyo3(from_py_with = named)] rtol: Option<f64>,
+        #[pyo3(from_py_with = named)] every: usize,
+        #[pyo3(from_py_with = named)] progress: bool,
     ) -> PyResult<BodyRun> {
         let mut plan = match (dt, rtol) {
             (Some(dt), None) => Steps::constant(positive("dt", dt)?),
@@ -80,6 +85,7 @@ impl BodySimulation {
         if until.is_none() && steps.is_none() {
             return Err(PyValueError::new_err("give until or steps, or both"));
         }
+        let mut shown = None;
         if let Some(end) = until {
             let now = slf.get().time()?;
             if !(end.is_finite() && end > now) {
@@ -90,6 +96,7 @@ impl BodySimulation {
                 ));
             }
             plan = plan.until(end);
+            shown = Progress::new(slf.py(), progress, [now, end])?.map(|shown| shown.until(end));
         }
         Ok(BodyRun {
             simulation: slf.unbind(),
@@ -97,18 +104,19 @@ impl BodySimulation {
             until,
             left: steps.map(|steps| count("steps", steps)).transpose()?,
             every: count("every", every)?,
+            progress: shown,
         })
     }
 
     /// Takes one step of `dt` [s] and returns the body after it.
-    fn step(&self, py: Python<'_>, dt: f64) -> PyResult<BodyState> {
-        self.advance(py, &Steps::constant(positive("dt", dt)?).count(1))?;
+    fn step(&self, py: Python<'_>, #[pyo3(from_py_with = named)] dt: f64) -> PyResult<BodyState> {
+        self.advance(py, &Steps::constant(positive("dt", dt)?).count(1), None)?;
         self.now(py)
     }
 
     /// The body at the present time.
     fn now(&self, py: Python<'_>) -> PyResult<BodyState> {
-        each!(&*self.lock()?, body => BodyState::new(py, &body.stepper.snapshot(), body.whole.as_ref()))
+        each!(&*self.lock()?, body => BodyState::of(py, &body.stepper.snapshot(), body.whole.as_ref()))
     }
 
     /// The present time [s].
@@ -127,21 +135,43 @@ impl BodySimulation {
 
     /// All that later steps depend on, as bytes, which can be kept and pickled.
     fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = each!(&*self.lock()?, body => {
-            let state: &StepState<_> = body.stepper.snapshot().state();
-            postcard::to_allocvec(state)
-        });
-        let bytes = bytes.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-        Ok(PyBytes::new(py, &bytes))
+        each!(&*self.lock()?, body => state_bytes(py, &body.stepper.snapshot()))
     }
 
     /// Goes on from a state of the same body with the same parts and contacts: the next steps have the same bits.
-    fn restore(&self, py: Python<'_>, state: &[u8]) -> PyResult<()> {
-        each!(&mut *self.lock()?, body => {
-            let state = postcard::from_bytes(state)
-                .map_err(|_| argument("state", "the bytes of a state of such a body", state.len()))?;
-            body.stepper.restore(&state).map_err(|error| errors::scene(py, &error))
-        })
+    fn restore(&self, py: Python<'_>, #[pyo3(from_py_with = named)] state: &[u8]) -> PyResult<()> {
+        each!(&mut *self.lock()?, body => restart::restore(py, "state", &mut *body.stepper, state))
+    }
+
+    /// Writes a checkpoint: a file from which a simulation of the same body goes on.
+    ///
+    /// Raises:
+    ///     OSError: for a file that cannot be written; an older one stays.
+    fn save(&self, py: Python<'_>, #[pyo3(from_py_with = named)] path: PathBuf) -> PyResult<()> {
+        each!(&*self.lock()?, body => restart::save(py, &path, &body.stepper.snapshot(), &()))
+    }
+
+    /// Goes on from a checkpoint of a simulation of the same body: the next steps have the same bits.
+    ///
+    /// Raises:
+    ///     OSError: for a file that cannot be read.
+    ///     FileError: for a file that is damaged or no checkpoint, or that of another body.
+    fn load(&self, py: Python<'_>, #[pyo3(from_py_with = named)] path: PathBuf) -> PyResult<()> {
+        each!(&mut *self.lock()?, body => restart::load(py, &path, &mut *body.stepper))
+    }
+
+    fn __reduce__(&self) -> PyResult<Py<PyAny>> {
+        let message =
+            "a BodySimulation is not pickled: pickle its state(), and restore it into another one";
+        Err(PyTypeError::new_err(message))
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let (time, vertices) = each!(&*self.lock()?, body => {
+            let at = body.stepper.snapshot();
+            (at.time, at.velocity.len())
+        });
+        Ok(format!("BodySimulation({vertices} vertices, time={time})"))
     }
 }
 
@@ -160,11 +190,21 @@ impl BodySimulation {
     }
 
     /// Takes the steps of a plan.
-    fn advance(&self, py: Python<'_>, steps: &Steps) -> PyResult<RunReport> {
+    fn advance(
+        &self,
+        py: Python<'_>,
+        steps: &Steps,
+        progress: Option<&mut Progress>,
+    ) -> PyResult<RunReport> {
         let call = Call::begin()?;
         let mut stepper = self.lock()?;
+        let course = Course {
+            steps,
+            times: &[],
+            progress,
+        };
         let ended = each!(&mut *stepper, body => {
-            run((py, &call, &self.raised), &mut *body.stepper, steps, nothing)
+            run((py, &call, &self.raised), &mut *body.stepper, course, |_| (), nothing)
         });
         ended.map_err(|ended| match ended {
             Ended::Raised(error) => error,
@@ -185,6 +225,7 @@ pub(crate) struct BodyRun {
     until: Option<f64>,
     left: Option<usize>,
     every: usize,
+    progress: Option<Progress>,
 }
 
 #[pymethods]
@@ -204,7 +245,8 @@ impl BodyRun {
         {
             return Ok(None);
         }
-        let report = simulation.advance(py, &self.plan.clone().count(steps))?;
+        let report =
+            simulation.advance(py, &self.plan.clone().count(steps), self.progress.as_mut())?;
         if let Some(left) = &mut self.left {
             *left = left.saturating_sub(report.accepted);
         }

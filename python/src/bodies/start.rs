@@ -106,7 +106,7 @@ impl Start {
 }
 
 /// The scheme of a name.
-pub(super) fn named(scheme: &str) -> PyResult<Box<dyn RateScheme>> {
+pub(super) fn scheme_of(scheme: &str) -> PyResult<Box<dyn RateScheme>> {
     Ok(match scheme {
         "generalized-alpha" => Box::new(GeneralizedAlpha::default()),
         "newmark" => Box::new(Newmark::default()),

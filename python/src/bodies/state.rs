@@ -2,10 +2,12 @@
 
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use stickslip::{ContactView, Snapshot};
 
 use super::reduced::Whole;
 use crate::errors;
+use crate::plain::{Reduced, fields, helper, ranges, reduced};
 use crate::view::{into_rows, rows};
 
 /// A body at the end of a step: arrays of its own, which later steps do not change.
@@ -43,7 +45,90 @@ pub(crate) struct ContactState {
 }
 
 #[pymethods]
+impl ContactState {
+    #[new]
+    #[pyo3(signature = (*, vertices, slip, slip_rate, theta, normal_stress, opening, mu))]
+    fn new(
+        vertices: Py<PyArray1<usize>>,
+        slip: Py<PyArray1<f64>>,
+        slip_rate: Py<PyArray1<f64>>,
+        theta: Option<Py<PyArray1<f64>>>,
+        normal_stress: Py<PyArray1<f64>>,
+        opening: Py<PyArray1<f64>>,
+        mu: Py<PyArray1<f64>>,
+    ) -> Self {
+        Self {
+            vertices,
+            slip,
+            slip_rate,
+            theta,
+            normal_stress,
+            opening,
+            mu,
+        }
+    }
+
+    /// A table of pandas with a row per vertex.
+    fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let columns = self.fields(py)?;
+        if self.theta.is_none() {
+            columns.del_item("theta")?;
+        }
+        helper(py, "_frames", "columns", (columns,))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Self>(py, self.fields(py)?)
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        ranges(&self.__repr__(py)?, &self.fields(py)?)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let vertices = self.vertices.bind(py).as_any().len()?;
+        Ok(format!("ContactState({vertices} vertices)"))
+    }
+}
+
+impl ContactState {
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        Ok(fields!(py, self; vertices, slip, slip_rate, theta, normal_stress, opening, mu))
+    }
+}
+
+#[pymethods]
 impl BodyState {
+    #[new]
+    #[pyo3(signature = (*, time, displacement, velocity, contacts, iterations))]
+    fn new(
+        time: f64,
+        displacement: Py<PyArray2<f64>>,
+        velocity: Py<PyArray2<f64>>,
+        contacts: Vec<Py<ContactState>>,
+        iterations: usize,
+    ) -> Self {
+        Self {
+            time,
+            displacement,
+            velocity,
+            contacts,
+            iterations,
+        }
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Self>(
+            py,
+            fields!(py, self; time, displacement, velocity, contacts, iterations),
+        )
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let fields = fields!(py, self; displacement, velocity);
+        ranges(&self.__repr__(), &fields)
+    }
+
     /// The largest slip rate of all contacts [m/s].
     #[getter]
     fn max_slip_rate(&self, py: Python<'_>) -> PyResult<f64> {
@@ -67,14 +152,14 @@ impl BodyState {
 }
 
 impl BodyState {
-    pub(super) fn new<const C: usize>(
+    pub(super) fn of<const C: usize>(
         py: Python<'_>,
         at: &Snapshot<'_, C>,
         whole: Option<&Whole<C>>,
     ) -> PyResult<Self> {
         let contacts = at
             .contacts()
-            .map(|contact| Py::new(py, ContactState::new(py, contact, whole)));
+            .map(|contact| Py::new(py, ContactState::of(py, contact, whole)));
         let fields = whole.map(|whole| whole.fields(at)).transpose();
         let fields = fields.map_err(|error| errors::scene(py, &error))?;
         let (displacement, velocity) = match fields {
@@ -97,7 +182,7 @@ impl BodyState {
 }
 
 impl ContactState {
-    fn new<const C: usize>(
+    fn of<const C: usize>(
         py: Python<'_>,
         contact: ContactView<'_, C>,
         whole: Option<&Whole<C>>,

@@ -1,24 +1,25 @@
 //! Runs of a fault.
 
-use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PyTypeError};
 use pyo3::prelude::*;
-use stickslip::Steps;
+use pyo3::types::PyBytes;
 use stickslip::integrate::Stepper;
-use stickslip::record::{self, EventCatalogue};
+use stickslip::record::EventCatalogue;
+use stickslip::{StepState, Steps};
 
-use super::record::{FaultRun, Record};
+use super::advance::Plan;
+use super::events::table;
+use super::record::FaultRun;
 use super::seas::SeasFiles;
-use crate::arguments::{count, finite, positive};
+use crate::arguments::{Numbers, count, finite, named, positive, sample_times};
 use crate::errors::{self, argument};
-use crate::exit::{Call, attached};
+use crate::exit::Call;
+use crate::progress::Progress;
 use crate::raised::Raised;
-use crate::run::{Ended, run};
-
-/// The number of events for which a catalogue has memory at first.
-const ROOM: usize = 64;
+use crate::restart::{self, packed, unpacked};
 
 /// A motion with one component of slip or two, and its catalogue of events.
 pub(super) enum Motion {
@@ -36,23 +37,16 @@ macro_rules! each {
     };
 }
 
-/// The plan of a run: its end, samples, thresholds and files.
-struct Plan<'a> {
-    until: f64,
-    every: usize,
-    steps: Steps,
-    callback: Option<Py<PyAny>>,
-    threshold: [f64; 2],
-    seas: Option<&'a SeasFiles>,
-}
+/// The number of steps of a call after which it fails by default.
+const MAX_STEPS: usize = 2_000_000;
 
 /// A fault in time, by an explicit Runge-Kutta method of order 5. Threads may share it; it runs in one at a time.
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct FaultSimulation {
     motion: Mutex<Motion>,
     /// Shear modulus \[Pa\], and the directions of the components of slip on a plane.
-    medium: (f64, Vec<[f64; 2]>),
-    raised: Raised,
+    pub(super) medium: (f64, Vec<[f64; 2]>),
+    pub(super) raised: Raised,
 }
 
 impl FaultSimulation {
@@ -79,14 +73,17 @@ impl FaultSimulation {
     ///
     /// Args:
     ///     until: end [s], after the present time.
-    ///     every: number of steps between two samples of all cells.
+    ///     every: number of steps between two samples of all cells, and between two calls of `callback`.
     ///     rtol: local error of a step in ln V and in the state.
     ///     max_steps: number of steps of this call after which it fails; None for no limit.
-    ///     callback: function of the time [s] and the largest slip rate [m/s], called with each sample; a value of True
-    ///         ends the run.
+    ///     callback: function of the time [s] and the largest slip rate [m/s], which returns None, or a bool: True ends the
+    ///         run.
     ///     threshold: slip rates [m/s] at which an event begins and ends, the second one not larger.
     ///     stops: times [s] at which a step ends.
     ///     seas: SeasFiles to write during the run.
+    ///     t_eval: times [s] of the samples, in order, from the present one to `until`, in the place of every few steps: inside
+    ///         of steps, which stay as they are, by a continuous extension of the method.
+    ///     progress: whether a bar of tqdm, if it is installed, or a line shows the time reached.
     ///
     /// Returns:
     ///     FaultRun: arrays over time and cells, and the events that end in the call, and the one under way at its end.
@@ -95,20 +92,22 @@ impl FaultSimulation {
     /// Raises:
     ///     StepError: for a step that fails; the samples up to there are its `partial`.
     ///     OSError: for a file that cannot be written.
-    #[pyo3(signature = (until, *, every=10, rtol=1e-6, max_steps=None, callback=None, threshold=(1e-2, 1e-3), stops=Vec::new(), seas=None),
-           text_signature = "($self, until, *, every=10, rtol=1e-06, max_steps=None, callback=None, threshold=(0.01, 0.001), stops=[], seas=None)")]
+    #[pyo3(signature = (until, *, every=10, rtol=1e-6, max_steps=Some(MAX_STEPS), callback=None, threshold=(1e-2, 1e-3), stops=Numbers(Vec::new()), seas=None, t_eval=None, progress=false),
+           text_signature = "($self, until, *, every=10, rtol=1e-06, max_steps=2000000, callback=None, threshold=(0.01, 0.001), stops=[], seas=None, t_eval=None, progress=False)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn run(
         &self,
         py: Python<'_>,
-        until: f64,
-        every: usize,
-        rtol: f64,
-        max_steps: Option<usize>,
+        #[pyo3(from_py_with = named)] until: f64,
+        #[pyo3(from_py_with = named)] every: usize,
+        #[pyo3(from_py_with = named)] rtol: f64,
+        #[pyo3(from_py_with = named)] max_steps: Option<usize>,
         callback: Option<Py<PyAny>>,
-        threshold: (f64, f64),
-        stops: Vec<f64>,
-        seas: Option<&SeasFiles>,
+        #[pyo3(from_py_with = named)] threshold: (f64, f64),
+        #[pyo3(from_py_with = named)] stops: Numbers,
+        #[pyo3(from_py_with = named)] seas: Option<Bound<'_, SeasFiles>>,
+        #[pyo3(from_py_with = named)] t_eval: Option<Numbers>,
+        #[pyo3(from_py_with = named)] progress: bool,
     ) -> PyResult<FaultRun> {
         let call = Call::begin()?;
         let every = count("every", every)?;
@@ -134,6 +133,7 @@ impl FaultSimulation {
                 callback.bind(py).repr()?.to_string(),
             ));
         }
+        let Numbers(stops) = stops;
         for (n, &stop) in stops.iter().enumerate() {
             finite(&format!("stops[{n}]"), stop)?;
         }
@@ -145,12 +145,14 @@ impl FaultSimulation {
             until,
             every,
             steps,
+            times: sample_times(t_eval, [now, until])?,
             callback,
             threshold: [begins, ends],
-            seas,
+            seas: seas.as_ref().map(Bound::get),
+            progress: Progress::new(py, progress, [now, until])?,
         };
         each!(&mut *motion, stepper, catalogue => {
-            self.advance((py, &call), &mut **stepper, catalogue, &plan)
+            self.advance((py, &call), &mut **stepper, catalogue, plan)
         })
     }
 
@@ -159,71 +161,71 @@ impl FaultSimulation {
     fn time(&self) -> PyResult<f64> {
         Ok(each!(&*self.lock()?, stepper, _ => stepper.snapshot().time))
     }
-}
 
-impl FaultSimulation {
-    /// Takes the steps of a plan.
-    fn advance<const C: usize>(
-        &self,
-        (py, call): (Python<'_>, &Call),
-        stepper: &mut dyn Stepper<C>,
-        kept: &mut Option<EventCatalogue<C>>,
-        plan: &Plan<'_>,
-    ) -> PyResult<FaultRun> {
-        let at = stepper.snapshot();
-        let mut record = Record::new(&at);
-        // An event that outlasts a call goes on in the next one.
-        let catalogue = match kept.take() {
-            Some(own) if own.rates() == plan.threshold => Ok(own),
-            _ => EventCatalogue::new(&at, 0, plan.threshold, self.medium.0, ROOM),
-        };
-        let catalogue = kept.insert(catalogue.map_err(|error| errors::scene(py, &error))?);
-        let completed = catalogue.events().len();
-        let created = (plan.seas).map(|files| files.create(&self.medium, &at));
-        let created = created.transpose();
-        let mut files = created.map_err(|error| errors::file(py, &error))?;
-        let mut taken = 0;
-        let report = run((py, call, &self.raised), stepper, &plan.steps, |at| {
-            catalogue.record(at);
-            taken += 1;
-            if let Some(files) = &mut files
-                && files.record(at).is_break()
-            {
-                return Ok(ControlFlow::Break(()));
+    /// The events of all runs, also of those before a restart, and the one under way: a structured array as that of a run,
+    /// with the thresholds of the last run.
+    #[getter]
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let events = each!(&*self.lock()?, stepper, catalogue => {
+            let mut events = Vec::new();
+            if let Some(catalogue) = catalogue {
+                events.extend_from_slice(catalogue.events());
+                events.extend(catalogue.under_way(&stepper.snapshot()));
             }
-            if taken % plan.every != 0 && at.time < plan.until {
-                return Ok(ControlFlow::Continue(()));
-            }
-            record.add(at);
-            let Some(callback) = &plan.callback else {
-                return Ok(ControlFlow::Continue(()));
-            };
-            let ends = attached(|py| {
-                callback
-                    .bind(py)
-                    .call1((at.time, at.max_slip_rate()))?
-                    .is_truthy()
-            })?;
-            Ok(if ends {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            })
+            events
         });
-        // The rows of a failed run are complete, too.
-        let written = files.map_or(Ok(()), record::SeasFiles::finish);
-        let mut events = catalogue.events()[completed..].to_vec();
-        events.extend(catalogue.under_way(&stepper.snapshot()));
-        let samples = FaultRun::new(py, record, &events, taken)?;
-        let error = match report {
-            Ok(_) => {
-                written.map_err(|error| errors::file(py, &error))?;
-                return Ok(samples);
-            }
-            Err(Ended::Raised(error)) => error,
-            Err(Ended::Failed(failure)) => errors::failure(py, &failure),
-        };
-        error.value(py).setattr("partial", samples)?;
-        Err(error)
+        table(py, &events)
+    }
+
+    /// All that later steps depend on, and the events, as bytes, which can be kept and pickled.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        each!(&*self.lock()?, stepper, catalogue => {
+            packed(py, &(stepper.snapshot().state(), catalogue))
+        })
+    }
+
+    /// Goes on from a state of a simulation with the same arguments: the next steps have the same bits.
+    fn restore(&self, py: Python<'_>, #[pyo3(from_py_with = named)] state: &[u8]) -> PyResult<()> {
+        each!(&mut *self.lock()?, stepper, catalogue => {
+            let (state, events) = unpacked::<(StepState<_>, Option<EventCatalogue<_>>)>("state", state)?;
+            let restored = stepper.restore(&state);
+            restored.map_err(|error| errors::scene(py, &error))?;
+            *catalogue = events;
+            Ok(())
+        })
+    }
+
+    /// Writes a checkpoint: a file from which a simulation with the same arguments goes on.
+    ///
+    /// Raises:
+    ///     OSError: for a file that cannot be written; an older one stays.
+    fn save(&self, py: Python<'_>, #[pyo3(from_py_with = named)] path: PathBuf) -> PyResult<()> {
+        each!(&*self.lock()?, stepper, catalogue => restart::save(py, &path, &stepper.snapshot(), catalogue))
+    }
+
+    /// Goes on from a checkpoint of a simulation with the same arguments: the next steps have the same bits.
+    ///
+    /// Raises:
+    ///     OSError: for a file that cannot be read.
+    ///     FileError: for a file that is damaged or no checkpoint, or that of another simulation.
+    fn load(&self, py: Python<'_>, #[pyo3(from_py_with = named)] path: PathBuf) -> PyResult<()> {
+        each!(&mut *self.lock()?, stepper, catalogue => {
+            *catalogue = restart::load(py, &path, &mut **stepper)?;
+            Ok(())
+        })
+    }
+
+    fn __reduce__(&self) -> PyResult<Py<PyAny>> {
+        let message =
+            "a FaultSimulation is not pickled: pickle its state(), and restore it into another one";
+        Err(PyTypeError::new_err(message))
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let (time, cells) = each!(&*self.lock()?, stepper, _ => {
+            let at = stepper.snapshot();
+            (at.time, at.contact(0).len())
+        });
+        Ok(format!("FaultSimulation({cells} cells, time={time})"))
     }
 }

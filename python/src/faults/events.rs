@@ -1,8 +1,10 @@
 //! Events as a structured array.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::PyList;
 use stickslip::record::Event;
+
+use crate::plain::helper;
 
 /// Names and types of the columns.
 const COLUMNS: [(&str, &str); 11] = [
@@ -41,8 +43,5 @@ pub(super) fn table<'py>(py: Python<'py>, events: &[Event]) -> PyResult<Bound<'p
         )
     });
     let rows = PyList::new(py, rows.collect::<Vec<_>>())?;
-    let options = PyDict::new(py);
-    options.set_item("dtype", COLUMNS.to_vec())?;
-    py.import("numpy")?
-        .call_method("array", (rows,), Some(&options))
+    helper(py, "_events", "table", (rows, COLUMNS.to_vec()))
 }

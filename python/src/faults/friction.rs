@@ -11,6 +11,8 @@ use super::laws::CellLaws;
 /// Friction with parameters per cell.
 pub(super) struct CellFriction<const C: usize> {
     pub(super) laws: CellLaws,
+    /// `alpha/b` of Linker and Dieterich.
+    pub(super) effect: Option<Vec<f64>>,
     /// Initial states, `ln(theta / 1 s)`.
     pub(super) states: Vec<LogTheta>,
     /// \[Pa\].
@@ -62,6 +64,10 @@ impl<const C: usize> CellFriction<C> {
         let contact = Contact::per_vertex(part, friction, self.normal_stress)
             .with_state_per_vertex(laws, self.states)
             .with_shear_stress(self.shear_stress);
+        let contact = match self.effect {
+            Some(kappa) => contact.with_normal_stress_effect(kappa),
+            None => contact,
+        };
         let contact = if self.opens {
             contact.allow_opening()
         } else {
@@ -71,7 +77,7 @@ impl<const C: usize> CellFriction<C> {
             return scene.with_contact(contact);
         };
         scene.with_contact(contact.with_normal_stress_history(move |time, stress| {
-            let pressures: Vec<Vector1<f64>> = pressure.at(time, stress.len());
+            let pressures: Vec<Vector1<f64>> = pressure.at(time);
             for ((stress, total), pressure) in stress.iter_mut().zip(&total).zip(pressures) {
                 *stress = total - pressure[0];
             }

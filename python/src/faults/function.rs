@@ -1,9 +1,10 @@
 //! Functions of time in Python, with a value per cell.
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use stickslip::nalgebra::SVector;
 
-use super::per_cell::PerCell;
+use super::per_cell::{Layout, PerCell};
 use crate::errors::argument;
 use crate::exit::attached;
 use crate::raised::Raised;
@@ -12,6 +13,7 @@ use crate::raised::Raised;
 pub(super) struct CellFunction {
     name: &'static str,
     function: Py<PyAny>,
+    cells: Layout,
     raised: Raised,
 }
 
@@ -21,6 +23,7 @@ impl CellFunction {
         py: Python<'_>,
         name: &'static str,
         function: Option<Py<PyAny>>,
+        cells: Layout,
         raised: &Raised,
     ) -> PyResult<Option<Self>> {
         let Some(function) = function else {
@@ -33,20 +36,24 @@ impl CellFunction {
         Ok(Some(Self {
             name,
             function,
+            cells,
             raised: raised.clone(),
         }))
     }
 
-    /// The values of so many cells; not a number where the function raises an exception, which is kept.
-    pub(super) fn at<const C: usize>(&self, time: f64, cells: usize) -> Vec<SVector<f64, C>> {
+    /// The values of all cells; not a number where the function raises an exception, which is kept.
+    pub(super) fn at<const C: usize>(&self, time: f64) -> Vec<SVector<f64, C>> {
         let values = attached(|py| {
-            let value: PerCell = self.function.bind(py).call1((time,))?.extract()?;
             let name = format!("the value of {}", self.name);
-            value.checked(&name, cells)
+            let value = self.function.bind(py).call1((time,))?;
+            let value = value.extract::<PerCell>();
+            let value = value
+                .map_err(|error| PyTypeError::new_err(format!("{name} {}", error.value(py))))?;
+            value.checked(&name, self.cells)
         });
         values.unwrap_or_else(|error| {
             self.raised.keep(error);
-            vec![SVector::repeat(f64::NAN); cells]
+            vec![SVector::repeat(f64::NAN); self.cells.count]
         })
     }
 }

@@ -7,6 +7,7 @@ use stickslip::{BoundaryPart, Operator, RungeKutta, Scene, SceneError};
 
 use super::friction::CellFriction;
 use super::loading::Loading;
+use super::per_cell::Layout;
 
 /// A fault.
 #[derive(Clone)]
@@ -32,6 +33,19 @@ impl Geometry {
             Self::Dipping(fault) => fault.cells().count(),
             Self::Plane(fault) => fault.cells().count(),
             Self::Free(fault) => fault.cells().count(),
+        }
+    }
+
+    /// The number of cells, and those of a plane down dip and along strike.
+    pub(super) fn layout(&self) -> Layout {
+        let shape = match self {
+            Self::Line(_) | Self::Dipping(_) => None,
+            Self::Plane(fault) => Some(fault.cells()),
+            Self::Free(fault) => Some(fault.cells()),
+        };
+        Layout {
+            count: self.count(),
+            shape: shape.map(|cells| [cells.down_dip().count(), cells.along_strike().count()]),
         }
     }
 

@@ -5,6 +5,7 @@ use pyo3::types::{PyList, PyTuple};
 use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
 use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
 
+use super::per_cell::Layout;
 use crate::bodies::PerVertex;
 use crate::errors::argument;
 use crate::laws::given;
@@ -35,6 +36,37 @@ pub(super) struct Given<'py> {
 }
 
 impl Given<'_> {
+    /// Arrays of the shape of a plane as lists of cells.
+    pub(super) fn flat(self, cells: Layout) -> Self {
+        let flat = |values| cells.flat(values);
+        Self {
+            fitted: self.fitted.map(|values| values.map(flat)),
+            reference: self.reference.map(flat),
+            ..self
+        }
+    }
+
+    /// `alpha/b` of so many cells, if there is `alpha` of Linker and Dieterich.
+    pub(super) fn normal_stress_effect(
+        &self,
+        alpha: Option<PerVertex>,
+        cells: usize,
+    ) -> PyResult<Option<Vec<f64>>> {
+        let Some(alpha) = alpha else {
+            return Ok(None);
+        };
+        let legal = |x: f64| x >= 0.0 && x.is_finite();
+        let alpha = alpha.checked("alpha", cells, "finite and non-negative", legal)?;
+        let Some(b) = self.fitted[1].clone() else {
+            return Err(argument("b", "given with alpha", "None"));
+        };
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let b = b.checked("b", cells, "finite and positive with alpha", positive)?;
+        Ok(Some(
+            alpha.iter().zip(b).map(|(alpha, b)| alpha / b).collect(),
+        ))
+    }
+
     /// The laws of so many cells; `raised` keeps the exceptions of the user's methods.
     pub(super) fn laws(self, cells: usize, raised: &Raised) -> PyResult<CellLaws> {
         let slip_law = match named(self.law.as_ref())? {

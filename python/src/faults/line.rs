@@ -2,6 +2,7 @@
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use stickslip::bie::{Cells, DippingFault, Fault, KernelError, Medium, Mode, Sense};
 
 use super::cycle::FaultSimulation;
@@ -10,9 +11,11 @@ use super::laws::Given;
 use super::loading::Directed;
 use super::per_cell::PerCell;
 use super::scene::{Arguments, simulation};
+use crate::arguments::named;
 use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
 use crate::memory::{DIPPING_CELL, LINE_CELL, check_memory};
+use crate::plain::{Reduced, fields, html, reduced, text};
 
 /// A fault whose slip does not vary along one direction, in equal cells:
 ///
@@ -32,7 +35,22 @@ use crate::memory::{DIPPING_CELL, LINE_CELL, check_memory};
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct LineFault {
     geometry: Geometry,
+    #[pyo3(get)]
+    ends: [f64; 2],
+    #[pyo3(get)]
+    cells: usize,
+    #[pyo3(get)]
     shear_modulus: f64,
+    #[pyo3(get)]
+    shear_wave_speed: f64,
+    #[pyo3(get)]
+    space: String,
+    #[pyo3(get)]
+    poisson_ratio: Option<f64>,
+    #[pyo3(get)]
+    dip: f64,
+    #[pyo3(get)]
+    sense: String,
 }
 
 #[pymethods]
@@ -43,16 +61,16 @@ impl LineFault {
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         py: Python<'_>,
-        ends: [f64; 2],
-        cells: usize,
-        shear_modulus: f64,
-        shear_wave_speed: f64,
-        space: &str,
-        poisson_ratio: Option<f64>,
-        dip: f64,
-        sense: &str,
+        #[pyo3(from_py_with = named)] ends: [f64; 2],
+        #[pyo3(from_py_with = named)] cells: usize,
+        #[pyo3(from_py_with = named)] shear_modulus: f64,
+        #[pyo3(from_py_with = named)] shear_wave_speed: f64,
+        #[pyo3(from_py_with = named)] space: &str,
+        #[pyo3(from_py_with = named)] poisson_ratio: Option<f64>,
+        #[pyo3(from_py_with = named)] dip: f64,
+        #[pyo3(from_py_with = named)] sense: &str,
     ) -> PyResult<Self> {
-        let sense = match sense {
+        let positive_sense = match sense {
             "thrust" => Sense::Thrust,
             "normal" => Sense::Normal,
             _ => return Err(argument("sense", "\"thrust\" or \"normal\"", sense)),
@@ -74,15 +92,18 @@ impl LineFault {
             _ => LINE_CELL,
         };
         check_memory("cells", &[cells], bytes)?;
+        let along = Cells::new(ends, cells);
+        let along =
+            along.map_err(|error| errors::of_argument(py, "ends", errors::kernel(py, &error)))?;
         let made = || -> Result<Geometry, KernelError> {
-            let cells = Cells::new(ends, cells)?;
+            let cells = along;
             let mode = match poisson_ratio {
                 Some(poisson_ratio) => Mode::InPlane { poisson_ratio },
                 None => Mode::Antiplane,
             };
             Ok(match (space, poisson_ratio) {
                 ("half", Some(ratio)) => {
-                    Geometry::Dipping(DippingFault::new(cells, rock, ratio, dip, sense)?)
+                    Geometry::Dipping(DippingFault::new(cells, rock, ratio, dip, positive_sense)?)
                 }
                 ("half", None) => Geometry::Line(Fault::half_space(cells, rock)?),
                 ("whole", _) => Geometry::Line(Fault::whole_space(cells, rock, mode)?),
@@ -92,7 +113,14 @@ impl LineFault {
         let geometry = made().map_err(|error| errors::kernel(py, &error))?;
         Ok(Self {
             geometry,
+            ends,
+            cells,
             shear_modulus,
+            shear_wave_speed,
+            space: space.to_owned(),
+            poisson_ratio,
+            dip,
+            sense: sense.to_owned(),
         })
     }
 
@@ -113,6 +141,8 @@ impl LineFault {
     ///     plate_rate: of the creep beyond the fault [m/s]. Its cells are loaded by back slip: those that all slip at their
     ///         plate rates keep their stress.
     ///     stress_rate: of shear stress [Pa/s].
+    ///     alpha: of Linker and Dieterich, >= 0: a change of the normal stress sigma changes the state such that friction
+    ///         changes by -alpha d(ln sigma) at once; b must be positive there.
     /// Further args:
     ///     friction: "regularized", or a law of your own as of SpringSlider, or a list of laws with one per cell.
     ///     law: "aging", "slip", or a law of your own as of SpringSlider, or a list of laws with one per cell. With both laws
@@ -125,30 +155,31 @@ impl LineFault {
     #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
                         V0=PerVertex::Uniform(1e-6), plate_rate=None,
-                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None)")]
+                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None, alpha=None),
+           text_signature = "($self, *, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None, alpha=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
         &self,
         py: Python<'_>,
-        a: Option<PerVertex>,
-        b: Option<PerVertex>,
-        Dc: Option<PerVertex>,
-        normal_stress: PerVertex,
-        shear_stress: PerCell,
-        theta: Option<PerVertex>,
-        log_theta: Option<PerVertex>,
-        slip_rate: Option<PerCell>,
-        mu0: PerVertex,
-        V0: PerVertex,
-        plate_rate: Option<PerCell>,
-        stress_rate: Option<PerCell>,
+        #[pyo3(from_py_with = named)] a: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] b: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] Dc: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] normal_stress: PerVertex,
+        #[pyo3(from_py_with = named)] shear_stress: PerCell,
+        #[pyo3(from_py_with = named)] theta: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] log_theta: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] slip_rate: Option<PerCell>,
+        #[pyo3(from_py_with = named)] mu0: PerVertex,
+        #[pyo3(from_py_with = named)] V0: PerVertex,
+        #[pyo3(from_py_with = named)] plate_rate: Option<PerCell>,
+        #[pyo3(from_py_with = named)] stress_rate: Option<PerCell>,
         friction: Option<Bound<'_, PyAny>>,
         law: Option<Bound<'_, PyAny>>,
-        allow_opening: bool,
+        #[pyo3(from_py_with = named)] allow_opening: bool,
         pressure: Option<Py<PyAny>>,
         overstress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = named)] alpha: Option<PerVertex>,
     ) -> PyResult<FaultSimulation> {
         let arguments = Arguments {
             laws: Given {
@@ -167,6 +198,7 @@ impl LineFault {
             normal_stress,
             theta,
             log_theta,
+            alpha,
             allow_opening,
             pressure,
         };
@@ -175,5 +207,26 @@ impl LineFault {
 
     fn __len__(&self) -> usize {
         self.geometry.count()
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        text("LineFault", &self.given(py)?)
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        html("LineFault", &self.given(py)?)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Self>(py, self.given(py)?)
+    }
+}
+
+impl LineFault {
+    /// The arguments.
+    fn given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        Ok(
+            fields!(py, self; ends, cells, shear_modulus, shear_wave_speed, space, poisson_ratio, dip, sense),
+        )
     }
 }

@@ -5,7 +5,7 @@ use stickslip::nalgebra::SVector;
 use stickslip::{Operator, Scene};
 
 use super::function::CellFunction;
-use super::per_cell::PerCell;
+use super::per_cell::{Layout, PerCell};
 use crate::raised::Raised;
 
 /// The arguments of Python with the components of slip.
@@ -22,7 +22,7 @@ impl Directed {
     pub(super) fn checked<const C: usize>(
         self,
         py: Python<'_>,
-        cells: usize,
+        cells: Layout,
         raised: &Raised,
     ) -> PyResult<(Vec<SVector<f64, C>>, Loading<C>)> {
         let given = |name: &str, values: Option<PerCell>| {
@@ -30,9 +30,9 @@ impl Directed {
         };
         let plate_rate = given("plate_rate", self.plate_rate)?;
         let loading = Loading {
-            plate_rate: plate_rate.unwrap_or_else(|| vec![SVector::zeros(); cells]),
+            plate_rate: plate_rate.unwrap_or_else(|| vec![SVector::zeros(); cells.count]),
             stress_rate: given("stress_rate", self.stress_rate)?,
-            overstress: CellFunction::given(py, "overstress", self.overstress, raised)?,
+            overstress: CellFunction::given(py, "overstress", self.overstress, cells, raised)?,
             slip_rate: given("slip_rate", self.slip_rate)?,
         };
         Ok((self.shear_stress.checked("shear_stress", cells)?, loading))
@@ -52,6 +52,11 @@ pub(super) struct Loading<const C: usize> {
 }
 
 impl<const C: usize> Loading<C> {
+    /// Whether initial slip rates are given.
+    pub(super) fn has_rates(&self) -> bool {
+        self.slip_rate.is_some()
+    }
+
     /// The scene with stress rates, overstress and initial rates, on cells of this size [m] or [m^2].
     pub(super) fn on<Op: Operator<C>>(self, mut scene: Scene<Op, C>, size: f64) -> Scene<Op, C> {
         if let Some(rates) = self.stress_rate {
@@ -63,7 +68,7 @@ impl<const C: usize> Loading<C> {
         }
         if let Some(overstress) = self.overstress {
             scene = scene.with_load_history(move |time, load| {
-                let stresses: Vec<SVector<f64, C>> = overstress.at(time, load.len());
+                let stresses: Vec<SVector<f64, C>> = overstress.at(time);
                 for (load, stress) in load.iter_mut().zip(stresses) {
                     *load += stress * size;
                 }

@@ -1,5 +1,7 @@
 //! Planar faults by boundary integrals.
 
+mod advance;
+mod callback;
 mod cycle;
 mod events;
 mod friction;

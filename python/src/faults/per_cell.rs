@@ -1,78 +1,81 @@
 //! Numbers or vectors per cell, by the number of components of slip.
 
-use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use stickslip::nalgebra::SVector;
 
-use crate::bodies::{PerVertex, real};
-use crate::errors::argument;
+use crate::bodies::PerVertex;
+use crate::errors::{Bare, argument};
+
+/// The cells of a fault: their number, and those of a plane down dip and along strike.
+#[derive(Clone, Copy)]
+pub(super) struct Layout {
+    pub(super) count: usize,
+    pub(super) shape: Option<[usize; 2]>,
+}
+
+impl Layout {
+    /// Values per cell in the order of cells, of an array of the fault's shape; others as they are.
+    pub(super) fn flat(&self, values: PerVertex) -> PerVertex {
+        match (values, self.shape) {
+            (PerVertex::Shaped(values, shape), Some(own)) if shape == own => {
+                PerVertex::Each(values)
+            }
+            (values, _) => values,
+        }
+    }
+}
 
 /// A vector with the components of slip, for all cells or one each.
-#[derive(FromPyObject)]
-pub(super) enum PerCell {
-    /// Of one component; a pair of two components for all cells.
-    #[pyo3(transparent, annotation = "number or array")]
-    Numbers(PerVertex),
-    /// Of two components.
-    #[pyo3(transparent, annotation = "array of pairs")]
-    Pairs(#[pyo3(from_py_with = pairs)] Vec<[f64; 2]>),
+pub(super) struct PerCell(PerVertex);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for PerCell {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        given.extract().map(Self)
+    }
 }
 
 impl PerCell {
-    /// Passes finite vectors, one for each of `count` cells.
+    /// Passes finite vectors, one for each cell.
     pub(super) fn checked<const C: usize>(
         self,
         name: &str,
-        count: usize,
+        cells: Layout,
     ) -> PyResult<Vec<SVector<f64, C>>> {
-        let pairs = match self {
-            Self::Numbers(values) if C == 1 => {
-                let values = values.checked(name, count, "finite", f64::is_finite)?;
-                return Ok(values.into_iter().map(SVector::repeat).collect());
-            }
-            Self::Numbers(PerVertex::Each(pair)) if pair.len() == 2 => {
-                vec![[pair[0], pair[1]]; count]
-            }
-            Self::Pairs(pairs) if C == 2 && pairs.len() == count => pairs,
-            other => return Err(other.misshapen(name, C, count)),
-        };
-        let finite = |pair: &[f64; 2]| pair.iter().all(|x| x.is_finite());
-        match pairs.iter().position(|pair| !finite(pair)) {
-            Some(n) => Err(argument(&format!("{name}[{n}]"), "finite", pairs[n])),
-            None => Ok((pairs.iter())
-                .map(|pair| SVector::from_fn(|c, _| pair[c]))
-                .collect()),
+        if C == 1 {
+            let values = cells.flat(self.0);
+            let values = values.checked(name, cells.count, "finite", f64::is_finite)?;
+            return Ok(values.into_iter().map(SVector::repeat).collect());
         }
-    }
-
-    /// The exception of another shape than that of the fault.
-    fn misshapen(&self, name: &str, components: usize, count: usize) -> PyErr {
-        let requirement = if components == 1 {
-            format!("one number, or one for each of {count} cells")
-        } else {
-            format!("a pair along strike and up dip, or one for each of {count} cells")
+        let pair = |values: &[f64], n: usize| SVector::from_fn(|c, _| values[2 * n + c]);
+        let (values, each) = match self.0 {
+            PerVertex::Each(pair) if pair.len() == 2 => (pair, false),
+            PerVertex::Shaped(values, shape)
+                if shape == [cells.count, 2]
+                    || cells.shape.is_some_and(|[m, n]| shape == [m, n, 2]) =>
+            {
+                (values, true)
+            }
+            other => return Err(misshapen(name, cells, &other)),
         };
-        match self {
-            Self::Numbers(PerVertex::Uniform(value)) => argument(name, &requirement, value),
-            Self::Numbers(PerVertex::Each(values)) => argument(name, &requirement, values.len()),
-            Self::Pairs(pairs) => argument(name, &requirement, (pairs.len(), 2)),
+        if let Some(n) = values.iter().position(|x| !x.is_finite()) {
+            let pair = &values[n / 2 * 2..][..2];
+            return Err(argument(&format!("{name}[{}]", n / 2), "finite", pair));
         }
+        let at = |n: usize| pair(&values, if each { n } else { 0 });
+        Ok((0..cells.count).map(at).collect())
     }
 }
 
-/// The pairs of a sequence, of real numbers.
-fn pairs(given: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 2]>> {
-    if let Ok(array) = given.cast::<PyArray2<f64>>() {
-        let array = array.try_readonly()?;
-        let rows = array.as_array();
-        if rows.ncols() == 2 {
-            return Ok(rows
-                .rows()
-                .into_iter()
-                .map(|row| [row[0], row[1]])
-                .collect());
-        }
-    }
-    real(given)?;
-    given.extract()
+/// The exception of another shape than that of a fault with two components of slip.
+fn misshapen(name: &str, cells: Layout, given: &PerVertex) -> PyErr {
+    let count = cells.count;
+    let requirement = format!("a pair along strike and up dip, or an array of {count} pairs");
+    let given = match given {
+        PerVertex::Uniform(value) => format!("{value}"),
+        PerVertex::Each(values) => format!("an array of {} numbers", values.len()),
+        PerVertex::Shaped(_, shape) => format!("an array of shape {shape:?}"),
+    };
+    argument(name, &requirement, Bare(given))
 }

@@ -2,6 +2,7 @@
 
 use numpy::PyArray2;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use stickslip::bie::{Cells, KernelError, Medium, PlaneFault as Plane, Rectangles};
 
 use super::cycle::FaultSimulation;
@@ -10,13 +11,16 @@ use super::laws::Given;
 use super::loading::Directed;
 use super::per_cell::PerCell;
 use super::scene::{Arguments, simulation};
+use crate::arguments::{named, wrong_type};
 use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
 use crate::memory::{LINE_CELL, PAIR_DOWN_DIP, check_memory};
+use crate::plain::{Reduced, fields, html, reduced, text};
 use crate::view::into_rows;
 
 /// A plane of rectangular cells, in a whole space or below a free surface. Cells are numbered along strike first: an array
-/// per cell reshapes to (cells down dip, cells along strike). Slip has a fixed rake, or two components.
+/// per cell reshapes to `shape`, (cells down dip, cells along strike), and one of that shape is taken where values per cell
+/// are asked for. Slip has a fixed rake, or two components.
 ///
 /// Args:
 ///     along_strike, down_dip: positions of both ends [m]; down dip from the surface on.
@@ -31,18 +35,45 @@ use crate::view::into_rows;
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct PlaneFault {
     geometry: Geometry,
+    #[pyo3(get)]
+    along_strike: [f64; 2],
+    #[pyo3(get)]
+    down_dip: [f64; 2],
+    #[pyo3(get)]
+    cells: [usize; 2],
+    #[pyo3(get)]
     shear_modulus: f64,
+    #[pyo3(get)]
+    shear_wave_speed: f64,
+    #[pyo3(get)]
+    poisson_ratio: f64,
+    #[pyo3(get)]
+    space: String,
+    #[pyo3(get)]
+    dip: f64,
+    #[pyo3(get)]
+    rake: Rake,
 }
 
 /// The rake of slip.
-#[derive(FromPyObject)]
+#[derive(Clone, IntoPyObject)]
 enum Rake {
     /// Fixed \[degrees\].
-    #[pyo3(transparent, annotation = "number")]
     Degrees(f64),
     /// Free.
-    #[pyo3(transparent, annotation = "\"free\"")]
     Named(String),
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Rake {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(name) = given.extract() {
+            return Ok(Self::Named(name));
+        }
+        let degrees = given.extract().map(Self::Degrees);
+        degrees.map_err(|_| wrong_type("a number of degrees or \"free\"", &given))
+    }
 }
 
 impl Rake {
@@ -65,15 +96,15 @@ impl PlaneFault {
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         py: Python<'_>,
-        along_strike: [f64; 2],
-        down_dip: [f64; 2],
-        cells: [usize; 2],
-        shear_modulus: f64,
-        shear_wave_speed: f64,
-        poisson_ratio: f64,
-        space: &str,
-        dip: f64,
-        rake: Rake,
+        #[pyo3(from_py_with = named)] along_strike: [f64; 2],
+        #[pyo3(from_py_with = named)] down_dip: [f64; 2],
+        #[pyo3(from_py_with = named)] cells: [usize; 2],
+        #[pyo3(from_py_with = named)] shear_modulus: f64,
+        #[pyo3(from_py_with = named)] shear_wave_speed: f64,
+        #[pyo3(from_py_with = named)] poisson_ratio: f64,
+        #[pyo3(from_py_with = named)] space: &str,
+        #[pyo3(from_py_with = named)] dip: f64,
+        #[pyo3(from_py_with = named)] rake: Rake,
     ) -> PyResult<Self> {
         if !["half", "whole"].contains(&space) {
             return Err(argument("space", "\"half\" or \"whole\"", space));
@@ -89,24 +120,43 @@ impl PlaneFault {
             let counts = [columns, rows, rows, components, components];
             check_memory("cells", &counts, PAIR_DOWN_DIP)?;
         }
+        let along = |name: &str, ends: [f64; 2], count: usize| {
+            let cells = Cells::new(ends, count);
+            cells.map_err(|error| errors::of_argument(py, name, errors::kernel(py, &error)))
+        };
+        let columns = along("along_strike", along_strike, columns)?;
+        let rows = along("down_dip", down_dip, rows)?;
         let made = || -> Result<Geometry, KernelError> {
-            let columns = Cells::new(along_strike, cells[0])?;
-            let cells = Rectangles::new(columns, Cells::new(down_dip, cells[1])?);
+            let cells = Rectangles::new(columns, rows);
             let plane = if space == "half" {
                 Plane::half_space(cells, dip, rock, poisson_ratio)?
             } else {
                 Plane::whole_space(cells, rock, poisson_ratio)?
             };
-            Ok(match rake {
-                Rake::Degrees(rake) => Geometry::Plane(plane.with_rake(rake)?),
+            Ok(match &rake {
+                Rake::Degrees(rake) => Geometry::Plane(plane.with_rake(*rake)?),
                 Rake::Named(_) => Geometry::Free(plane),
             })
         };
         let geometry = made().map_err(|error| errors::kernel(py, &error))?;
         Ok(Self {
             geometry,
+            along_strike,
+            down_dip,
+            cells,
             shear_modulus,
+            shear_wave_speed,
+            poisson_ratio,
+            space: space.to_owned(),
+            dip,
+            rake,
         })
+    }
+
+    /// The numbers of cells down dip and along strike: arrays of this shape have a value per cell.
+    #[getter]
+    fn shape(&self) -> (usize, usize) {
+        (self.cells[1], self.cells[0])
     }
 
     /// The centres of cells [m], one row each: along strike, and down dip.
@@ -122,30 +172,31 @@ impl PlaneFault {
     #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
                         V0=PerVertex::Uniform(1e-6), plate_rate=None,
-                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None)")]
+                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None, alpha=None),
+           text_signature = "($self, *, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None, alpha=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
         &self,
         py: Python<'_>,
-        a: Option<PerVertex>,
-        b: Option<PerVertex>,
-        Dc: Option<PerVertex>,
-        normal_stress: PerVertex,
-        shear_stress: PerCell,
-        theta: Option<PerVertex>,
-        log_theta: Option<PerVertex>,
-        slip_rate: Option<PerCell>,
-        mu0: PerVertex,
-        V0: PerVertex,
-        plate_rate: Option<PerCell>,
-        stress_rate: Option<PerCell>,
+        #[pyo3(from_py_with = named)] a: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] b: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] Dc: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] normal_stress: PerVertex,
+        #[pyo3(from_py_with = named)] shear_stress: PerCell,
+        #[pyo3(from_py_with = named)] theta: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] log_theta: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] slip_rate: Option<PerCell>,
+        #[pyo3(from_py_with = named)] mu0: PerVertex,
+        #[pyo3(from_py_with = named)] V0: PerVertex,
+        #[pyo3(from_py_with = named)] plate_rate: Option<PerCell>,
+        #[pyo3(from_py_with = named)] stress_rate: Option<PerCell>,
         friction: Option<Bound<'_, PyAny>>,
         law: Option<Bound<'_, PyAny>>,
-        allow_opening: bool,
+        #[pyo3(from_py_with = named)] allow_opening: bool,
         pressure: Option<Py<PyAny>>,
         overstress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = named)] alpha: Option<PerVertex>,
     ) -> PyResult<FaultSimulation> {
         let arguments = Arguments {
             laws: Given {
@@ -164,6 +215,7 @@ impl PlaneFault {
             normal_stress,
             theta,
             log_theta,
+            alpha,
             allow_opening,
             pressure,
         };
@@ -172,5 +224,26 @@ impl PlaneFault {
 
     fn __len__(&self) -> usize {
         self.geometry.count()
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        text("PlaneFault", &self.given(py)?)
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        html("PlaneFault", &self.given(py)?)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Self>(py, self.given(py)?)
+    }
+}
+
+impl PlaneFault {
+    /// The arguments.
+    fn given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let given = fields!(py, self; along_strike, down_dip, cells, shear_modulus, shear_wave_speed, poisson_ratio, space, dip);
+        given.set_item("rake", self.rake.clone())?;
+        Ok(given)
     }
 }

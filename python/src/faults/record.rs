@@ -3,10 +3,12 @@
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use stickslip::Snapshot;
 use stickslip::record::Event;
 
 use super::events::table;
+use crate::plain::{Reduced, fields, helper, ranges, reduced};
 
 /// The history of a fault: samples by row, cells by column, the initial values first. Slip rates, slip and shear stresses
 /// of a plane with a free rake have a last axis with the components along strike and up dip.
@@ -24,15 +26,16 @@ pub(crate) struct FaultRun {
     shear_stress: Py<PyArrayDyn<f64>>,
     /// Normal stresses [Pa].
     normal_stress: Py<PyArray2<f64>>,
-    /// Events, a structured array: onset, arrest [s], origin, hypocentre [m], peak_slip_rate [m/s], cells, area,
-    /// mean_slip, largest_slip [m], moment, stress_drop [Pa]. One under way at the end has nan as its arrest.
+    /// Events, a structured array with `to_frame()`: onset, arrest [s], origin, hypocentre [m], peak_slip_rate [m/s], cells,
+    /// area, mean_slip, largest_slip [m], moment, stress_drop [Pa]. One under way at the end has nan as its arrest.
     events: Py<PyAny>,
     /// The number of accepted steps.
     steps: usize,
 }
 
-/// Samples of a run.
+/// Samples of a run of a fault with so many cells.
 pub(super) struct Record {
+    cells: usize,
     times: Vec<f64>,
     /// V, slip and shear stress, of as many components as slip.
     vectors: [Vec<f64>; 3],
@@ -42,16 +45,21 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// The sample at the beginning.
-    pub(super) fn new<const C: usize>(at: &Snapshot<'_, C>) -> Self {
-        let mut record = Self {
+    /// No samples yet of a fault.
+    pub(super) fn of<const C: usize>(fault: &Snapshot<'_, C>) -> Self {
+        Self {
+            cells: fault.contact(0).len(),
             times: Vec::new(),
             vectors: Default::default(),
             scalars: Default::default(),
             components: C,
-        };
-        record.add(at);
-        record
+        }
+    }
+
+    /// Sets the times of the samples to those asked for, which clocks meet to rounding.
+    pub(super) fn at(&mut self, times: &[f64]) {
+        let count = self.times.len();
+        self.times.copy_from_slice(&times[..count]);
     }
 
     /// Appends a sample.
@@ -71,14 +79,13 @@ impl Record {
 }
 
 impl FaultRun {
-    pub(super) fn new(
+    pub(super) fn of(
         py: Python<'_>,
         record: Record,
         events: &[Event],
         steps: usize,
     ) -> PyResult<Self> {
-        let samples = record.times.len();
-        let cells = record.scalars[0].len() / samples;
+        let (samples, cells) = (record.times.len(), record.cells);
         let shape = match record.components {
             1 => vec![samples, cells],
             components => vec![samples, cells, components],
@@ -102,10 +109,61 @@ impl FaultRun {
             steps,
         })
     }
+
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        Ok(fields!(py, self; t, V, slip, theta, shear_stress, normal_stress, events, steps))
+    }
 }
 
 #[pymethods]
 impl FaultRun {
+    #[new]
+    #[pyo3(signature = (*, t, V, slip, theta, shear_stress, normal_stress, events, steps))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn new(
+        t: Py<PyArray1<f64>>,
+        V: Py<PyArrayDyn<f64>>,
+        slip: Py<PyArrayDyn<f64>>,
+        theta: Py<PyArray2<f64>>,
+        shear_stress: Py<PyArrayDyn<f64>>,
+        normal_stress: Py<PyArray2<f64>>,
+        events: Py<PyAny>,
+        steps: usize,
+    ) -> Self {
+        Self {
+            t,
+            V,
+            slip,
+            theta,
+            shear_stress,
+            normal_stress,
+            events,
+            steps,
+        }
+    }
+
+    /// A table of pandas with a row per sample and cell: t, cell, V, slip, theta, shear_stress, normal_stress; with a free
+    /// rake the components end in _strike and _dip.
+    ///
+    /// Args:
+    ///     cells: the numbers of some cells, or of one; by default all.
+    #[pyo3(signature = (cells=None))]
+    fn to_frame<'py>(
+        &self,
+        py: Python<'py>,
+        cells: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        helper(py, "_frames", "cells", (self.fields(py)?, cells))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Self>(py, self.fields(py)?)
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        ranges(&self.__repr__(py)?, &self.fields(py)?)
+    }
+
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         self.t.bind(py).as_any().len()
     }

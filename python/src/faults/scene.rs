@@ -2,7 +2,9 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use stickslip::Snapshot;
 use stickslip::integrate::Stepper;
+use stickslip::nalgebra::SVector;
 use stickslip::state::{LogTheta, Theta};
 
 use super::cycle::{FaultSimulation, Motion};
@@ -11,6 +13,7 @@ use super::function::CellFunction;
 use super::geometry::{Built, Geometry, dipping, line, plane};
 use super::laws::Given;
 use super::loading::{Directed, Loading};
+use super::per_cell::Layout;
 use crate::bodies::PerVertex;
 use crate::errors;
 use crate::exit::Call;
@@ -23,6 +26,7 @@ pub(super) struct Arguments<'py> {
     pub(super) normal_stress: PerVertex,
     pub(super) theta: Option<PerVertex>,
     pub(super) log_theta: Option<PerVertex>,
+    pub(super) alpha: Option<PerVertex>,
     pub(super) allow_opening: bool,
     pub(super) pressure: Option<Py<PyAny>>,
 }
@@ -34,7 +38,7 @@ pub(super) fn simulation(
     given: Arguments<'_>,
 ) -> PyResult<FaultSimulation> {
     let raised = Raised::default();
-    let at = (py, &raised, geometry.count());
+    let at = (py, &raised, geometry.layout());
     let motion = match geometry {
         Geometry::Line(fault) => Motion::One(built(at, given, |l, f| line(fault, l, f))?, None),
         Geometry::Dipping(fault) => {
@@ -52,28 +56,67 @@ pub(super) fn simulation(
 
 /// The motion of so many cells, built without the interpreter's lock.
 fn built<const C: usize>(
-    (py, raised, cells): (Python<'_>, &Raised, usize),
+    (py, raised, layout): (Python<'_>, &Raised, Layout),
     given: Arguments<'_>,
     build: impl FnOnce(Loading<C>, CellFriction<C>) -> Built<C> + Send,
 ) -> PyResult<Box<dyn Stepper<C>>> {
     let call = Call::begin()?;
+    let (cells, flat) = (layout.count, |values| layout.flat(values));
     let any = |name: &str, values: PerVertex| values.checked(name, cells, "finite", f64::is_finite);
-    let laws = given.laws.laws(cells, raised)?;
-    let states = states(given.theta, given.log_theta, cells)?;
-    let (shear_stress, loading) = given.directed.checked(py, cells, raised)?;
+    let laws = given.laws.flat(layout);
+    let effect = laws.normal_stress_effect(given.alpha.map(flat), cells)?;
+    let laws = laws.laws(cells, raised)?;
+    let states = states(given.theta.map(flat), given.log_theta.map(flat), cells)?;
+    let (shear_stress, loading) = given.directed.checked(py, layout, raised)?;
+    let norm = |stress: &SVector<f64, C>| stress.norm();
+    let stresses: Option<Vec<f64>> =
+        (!loading.has_rates()).then(|| shear_stress.iter().map(norm).collect());
     let friction = CellFriction {
         laws,
+        effect,
         states,
-        normal_stress: any("normal_stress", given.normal_stress)?,
+        normal_stress: any("normal_stress", flat(given.normal_stress))?,
         shear_stress,
         opens: given.allow_opening,
-        pressure: CellFunction::given(py, "pressure", given.pressure, raised)?,
+        pressure: CellFunction::given(py, "pressure", given.pressure, layout, raised)?,
     };
     let stepper = call.detach(py, || build(loading, friction));
     if let Some(error) = raised.take() {
         return Err(error);
     }
-    stepper.map_err(|error| errors::scene(py, &error))
+    let stepper = stepper.map_err(|error| errors::scene(py, &error))?;
+    if let Some(stresses) = stresses {
+        warn_of_seismic_start(py, &stepper.snapshot(), &stresses)?;
+    }
+    Ok(stepper)
+}
+
+/// The slip rate [m/s] at which a start is seismic: that at which events begin by default.
+const SEISMIC: f64 = 1e-2;
+
+/// Warns of a start at a seismic slip rate in balance with these shear stresses \[Pa\], which mistaken units are a cause of.
+fn warn_of_seismic_start<const C: usize>(
+    py: Python<'_>,
+    at: &Snapshot<'_, C>,
+    stresses: &[f64],
+) -> PyResult<()> {
+    let contact = at.contact(0);
+    let rates = (0..contact.len()).map(|k| contact.slip_rate(k));
+    let Some((cell, rate)) = rates.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return Ok(());
+    };
+    if rate < SEISMIC {
+        return Ok(());
+    }
+    let message = format!(
+        "the fault starts at a seismic slip rate, {rate:.3e} m/s in cell {cell}, where a shear stress of {:.4e} Pa exceeds \
+         the strength under a normal stress of {:.4e} Pa: check the units of shear_stress and normal_stress [Pa] and of \
+         theta [s], or give slip_rate",
+        stresses[cell],
+        contact.normal_stress(cell)
+    );
+    py.import("warnings")?.call_method1("warn", (message,))?;
+    Ok(())
 }
 
 /// The initial states, from one of two arguments.

@@ -7,18 +7,36 @@ use pyo3::types::PyDict;
 use stickslip::Snapshot;
 use stickslip::record::{self, FileError, SeasFolder, SeasHeader, SeasPoint};
 
-use crate::arguments::{count, positive};
+use crate::arguments::{count, named, positive, wrong_type};
+use crate::bodies::PerVertex;
 use crate::errors::argument;
+use crate::plain::{Reduced, fields, reduced, text};
 
 /// Positions on a fault.
-#[derive(FromPyObject)]
+#[derive(Clone, IntoPyObject)]
 enum Points {
     /// On a line \[m\].
-    #[pyo3(transparent, annotation = "positions on a line")]
     Line(Vec<f64>),
     /// Along strike and down dip \[m\].
-    #[pyo3(transparent, annotation = "pairs of positions on a plane")]
     Plane(Vec<[f64; 2]>),
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Points {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        match given.extract::<PerVertex>() {
+            Ok(PerVertex::Each(points)) => Ok(Self::Line(points)),
+            Ok(PerVertex::Shaped(points, shape)) if shape.len() == 2 && shape[1] == 2 => {
+                let pairs = points.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+                Ok(Self::Plane(pairs.collect()))
+            }
+            _ => Err(wrong_type(
+                "positions [m], or pairs of them on a plane",
+                &given,
+            )),
+        }
+    }
 }
 
 impl Points {
@@ -56,9 +74,26 @@ impl Points {
 ///     header: further lines of the header, such as {"element_size": "25 m"}.
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct SeasFiles {
-    folder: PathBuf,
-    stations: usize,
     files: SeasFolder,
+    #[pyo3(get)]
+    folder: PathBuf,
+    #[pyo3(get)]
+    problem: String,
+    #[pyo3(get)]
+    stations: Points,
+    #[pyo3(get)]
+    line: Points,
+    #[pyo3(get)]
+    intervals: Option<[f64; 2]>,
+    #[pyo3(get)]
+    threshold: f64,
+    #[pyo3(get)]
+    normal_stress: bool,
+    #[pyo3(get)]
+    unit: f64,
+    #[pyo3(get)]
+    digits: usize,
+    header: Vec<(String, String)>,
 }
 
 #[pymethods]
@@ -69,15 +104,15 @@ impl SeasFiles {
            text_signature = "(folder, problem, *, stations=[], line=[], intervals=None, threshold=0.01, normal_stress=False, unit=100.0, digits=3, header={})")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
-        folder: PathBuf,
-        problem: &str,
-        stations: Points,
-        line: Points,
-        intervals: Option<[f64; 2]>,
-        threshold: f64,
-        normal_stress: bool,
-        unit: f64,
-        digits: usize,
+        #[pyo3(from_py_with = named)] folder: PathBuf,
+        #[pyo3(from_py_with = named)] problem: &str,
+        #[pyo3(from_py_with = named)] stations: Points,
+        #[pyo3(from_py_with = named)] line: Points,
+        #[pyo3(from_py_with = named)] intervals: Option<[f64; 2]>,
+        #[pyo3(from_py_with = named)] threshold: f64,
+        #[pyo3(from_py_with = named)] normal_stress: bool,
+        #[pyo3(from_py_with = named)] unit: f64,
+        #[pyo3(from_py_with = named)] digits: usize,
         #[pyo3(from_py_with = lines)] header: Vec<(String, String)>,
     ) -> PyResult<Self> {
         if let Some([quiet, event]) = intervals {
@@ -88,12 +123,10 @@ impl SeasFiles {
             return Err(argument("digits", "at most 20", digits));
         }
         let begin = SeasHeader::new(problem);
-        let header = (header.iter()).fold(begin, |header, (key, value)| header.with(key, value));
-        let stations = stations.points();
-        let count = stations.len();
-        let mut files = SeasFolder::new(&folder, header)
-            .with_stations(stations)
-            .with_line(line.points())
+        let lines = (header.iter()).fold(begin, |lines, (key, value)| lines.with(key, value));
+        let mut files = SeasFolder::new(&folder, lines)
+            .with_stations(stations.clone().points())
+            .with_line(line.clone().points())
             .with_event_rate(positive("threshold", threshold)?)
             .with_names(positive("unit", unit)?, digits);
         if let Some(intervals) = intervals {
@@ -103,15 +136,48 @@ impl SeasFiles {
             files = files.with_normal_stress();
         }
         Ok(Self {
-            folder,
-            stations: count,
             files,
+            folder,
+            problem: problem.to_owned(),
+            stations,
+            line,
+            intervals,
+            threshold,
+            normal_stress,
+            unit,
+            digits,
+            header,
         })
     }
 
-    fn __repr__(&self) -> String {
-        let (folder, stations) = (self.folder.display(), self.stations);
-        format!("SeasFiles({folder}, {stations} stations)")
+    /// Further lines of the header.
+    #[getter]
+    fn header<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let header = PyDict::new(py);
+        for (key, value) in &self.header {
+            header.set_item(key, value)?;
+        }
+        Ok(header)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        text("SeasFiles", &self.given(py)?)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Self>(py, self.given(py)?)
+    }
+}
+
+impl SeasFiles {
+    /// The arguments.
+    fn given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let given =
+            fields!(py, self; folder, problem, intervals, threshold, normal_stress, unit, digits);
+        given.set_item("stations", self.stations.clone())?;
+        given.set_item("line", self.line.clone())?;
+        given.set_item("header", self.header(py)?)?;
+        Ok(given)
     }
 }
 

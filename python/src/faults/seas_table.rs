@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyKeyError;
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
 use stickslip::record::SeasTable as Table;
 
+use crate::arguments::named;
 use crate::errors;
+use crate::plain::{Reduced, fields, helper, reduced};
 use crate::view::view;
 
 /// A file in the format of the SEAS benchmarks, of this code or another.
@@ -27,16 +30,57 @@ use crate::view::view;
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct SeasTable {
     table: Table,
+    /// Of the file.
+    #[pyo3(get)]
+    path: PathBuf,
+    /// The file, from which a pickle is read again.
+    contents: Vec<u8>,
 }
 
 #[pymethods]
 impl SeasTable {
     #[new]
-    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        match Table::read(path) {
-            Ok(table) => Ok(Self { table }),
+    #[pyo3(signature = (path, *, contents=None), text_signature = "(path)")]
+    fn new(
+        py: Python<'_>,
+        #[pyo3(from_py_with = named)] path: PathBuf,
+        contents: Option<Vec<u8>>,
+    ) -> PyResult<Self> {
+        let contents = match contents {
+            Some(contents) => contents,
+            None => std::fs::read(&path).map_err(|error| {
+                let message = format!("cannot read {}: {error}", path.display());
+                std::io::Error::new(error.kind(), message)
+            })?,
+        };
+        match Table::parse(contents.as_slice(), &path) {
+            Ok(table) => Ok(Self {
+                table,
+                path,
+                contents,
+            }),
             Err(error) => Err(errors::file(py, &error)),
         }
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let given = fields!(py, self; path);
+        given.set_item("contents", PyBytes::new(py, &self.contents))?;
+        reduced::<Self>(py, given)
+    }
+
+    /// A table of pandas with the columns of the file; not of one of slip or stress on a line.
+    fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (names, columns) = (self.table.names(), self.table.columns());
+        if names.len() != columns.len() {
+            let message = "a file of slip or stress on a line has no column of each name: take values and positions";
+            return Err(PyValueError::new_err(message));
+        }
+        let table = PyDict::new(py);
+        for (name, column) in names.iter().zip(columns) {
+            table.set_item(name, PyArray1::from_slice(py, column))?;
+        }
+        helper(py, "_frames", "columns", (table,))
     }
 
     /// The names of the columns. The last one of a file of slip or stress on a line is that of all columns from the
@@ -74,7 +118,7 @@ impl SeasTable {
     }
 
     /// The value of the first comment `# key=value`, or None.
-    fn metadata(&self, key: &str) -> Option<&str> {
+    fn metadata(&self, #[pyo3(from_py_with = named)] key: &str) -> Option<&str> {
         self.table.metadata(key)
     }
 

@@ -17,7 +17,7 @@ use crate::errors::argument;
 ///     coefficient: of friction.
 ///     slope: its derivative in the slip rate [s/m].
 ///     potential: its integral over the slip rate from 0 [m/s].
-#[pyclass(frozen, module = "stickslip")]
+#[pyclass(frozen, weakref, module = "stickslip")]
 pub(crate) struct CompiledFriction {
     functions: [Function; 3],
 }
@@ -52,7 +52,7 @@ impl CompiledFriction {
 /// Args:
 ///     rate: `double f(double theta, double slip_rate)`, the rate of the state.
 ///     slope: its derivative in the state [1/s], not positive.
-#[pyclass(frozen, module = "stickslip")]
+#[pyclass(frozen, weakref, module = "stickslip")]
 pub(crate) struct CompiledState {
     functions: [Function; 2],
 }

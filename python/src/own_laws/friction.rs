@@ -6,6 +6,7 @@ use stickslip::state::{LogTheta, Theta};
 
 use super::{CompiledFriction, Function, STATES};
 use crate::errors;
+use crate::plain::helper;
 use crate::raised::Raised;
 
 /// A law of three functions of slip rate [m/s] and state [s].
@@ -17,7 +18,8 @@ pub(crate) struct OwnFriction {
 }
 
 impl OwnFriction {
-    /// The law of an object, the argument of a name, checked at some states and slip rates.
+    /// The law of an object, the argument of a name, checked at some states and slip rates when it is
+    /// seen first.
     pub(crate) fn new(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
         let raised = Raised::default();
         let [coefficient, slope, potential] = match object.cast::<CompiledFriction>() {
@@ -36,13 +38,17 @@ impl OwnFriction {
             slope,
             potential,
         };
+        let py = object.py();
+        if helper(py, "_laws", "is_checked", ("friction", object))?.is_truthy()? {
+            return Ok(law);
+        }
         let checked = check_friction_law(&law, &STATES);
         if let Some(error) = raised.take() {
             return Err(error);
         }
-        let py = object.py();
         checked
             .map_err(|violation| errors::of_argument(py, name, errors::friction(py, &violation)))?;
+        helper(py, "_laws", "check", ("friction", object))?;
         Ok(law)
     }
 

@@ -5,6 +5,7 @@ use stickslip::state::{LogTheta, StateLaw, check_state_law};
 
 use super::{CompiledState, Function, STATES};
 use crate::errors;
+use crate::plain::helper;
 use crate::raised::Raised;
 
 /// A law of two functions of the state [s] and the slip rate [m/s], in the logarithm of the state:
@@ -16,7 +17,8 @@ pub(crate) struct OwnState {
 }
 
 impl OwnState {
-    /// The law of an object, the argument of a name, checked at some states and slip rates.
+    /// The law of an object, the argument of a name, checked at some states and slip rates when it is
+    /// seen first.
     pub(crate) fn new(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
         let raised = Raised::default();
         let [rate, slope] = match object.cast::<CompiledState>() {
@@ -27,14 +29,18 @@ impl OwnState {
             }
         };
         let law = Self { rate, slope };
+        let py = object.py();
+        if helper(py, "_laws", "is_checked", ("state", object))?.is_truthy()? {
+            return Ok(law);
+        }
         let checked = check_state_law(&law, &STATES);
         if let Some(error) = raised.take() {
             return Err(error);
         }
-        let py = object.py();
         checked.map_err(|violation| {
             errors::of_argument(py, name, errors::state_law(py, &violation))
         })?;
+        helper(py, "_laws", "check", ("state", object))?;
         Ok(law)
     }
 
