@@ -1,172 +1,227 @@
 //! The result of a fit.
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stickslip::lab::{Errors, Fitted, Parameter, Record};
 
+use crate::plain::{Reduced, fields, helper, reduced};
 use crate::view::view;
 
-/// The result of a fit; `print` shows its table, `result["a"]` a parameter by its name. Its curves are
+/// The result of a fit; `print` shows its table, `result["a"]` a parameter by its name, fitted or fixed. Its curves are
 /// views, which cannot be written.
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct FitResult {
-    fitted: Fitted,
-    times: Vec<f64>,
+    /// Fitted parameters by name, in SI units.
+    #[pyo3(get)]
+    parameters: Py<PyAny>,
+    /// Standard errors of the fitted parameters by name, in their units.
+    #[pyo3(get)]
+    errors: Py<PyAny>,
+    /// All parameters by name, fitted or fixed.
+    #[pyo3(get)]
+    values: Py<PyAny>,
+    /// Correlations of the fitted parameters, in the order of `parameters`.
+    #[pyo3(get)]
+    correlation: Py<PyArray2<f64>>,
+    /// a - b and its standard error.
+    #[pyo3(get)]
+    a_minus_b: (f64, f64),
+    /// Weighted root mean square of the residuals.
+    #[pyo3(get)]
+    rms: f64,
+    /// Akaike's information criterion: of fits of the same data, the smaller one is preferred.
+    #[pyo3(get)]
+    aic: f64,
+    /// Whether the standard errors are those of correlated residuals, by their correlation lag_one; else of independent ones.
+    #[pyo3(get)]
+    correlated_errors: bool,
+    /// Correlation of the residuals of neighbouring samples.
+    #[pyo3(get)]
+    lag_one: f64,
+    /// Number of independent samples that determine a mean as well.
+    #[pyo3(get)]
+    effective_samples: f64,
+    /// Samples far beside their neighbours: pairs (time [s], data minus model).
+    #[pyo3(get)]
+    spikes: Vec<(f64, f64)>,
+    /// What the data do not determine, a sentence each.
+    #[pyo3(get)]
+    warnings: Vec<String>,
+    /// Times of the samples [s].
+    t: Vec<f64>,
+    /// Coefficient of friction of the model at the samples.
+    mu: Vec<f64>,
+    /// Data minus model at the samples.
+    residuals: Vec<f64>,
+    /// Names of the state laws.
+    #[pyo3(get)]
+    laws: Vec<String>,
+    /// The table that `print` shows.
+    #[pyo3(get)]
+    text: String,
 }
 
 impl FitResult {
-    pub(super) fn new(_: Python<'_>, record: &Record, fitted: Fitted) -> Self {
-        let times = record.times().to_vec();
-        Self { fitted, times }
-    }
-
-    /// The parameter of a name that the model has.
-    fn parameter(&self, name: &str) -> PyResult<Parameter> {
-        let states = self.fitted.parameters.states.len();
-        let found = name
-            .parse::<Parameter>()
-            .ok()
-            .filter(|parameter| match parameter {
-                Parameter::B(i) | Parameter::SlipDistance(i) | Parameter::InitialState(i) => {
-                    *i < states
-                }
-                _ => true,
-            });
-        let unknown = || {
-            let message =
-                format!("{name:?} is none of a, b1, L1, b2, L2, k, mu0, trend and step_offset");
-            PyKeyError::new_err(message)
+    pub(super) fn of(py: Python<'_>, record: &Record, fitted: &Fitted) -> PyResult<Self> {
+        let named = |table: Vec<(String, f64)>| -> PyResult<_> {
+            Ok(helper(py, "_names", "Parameters", (table,))?.unbind())
         };
-        found.ok_or_else(unknown)
+        let estimates = |value: fn(&stickslip::lab::Estimate) -> f64| {
+            let estimates = fitted.estimates.iter();
+            let estimates =
+                estimates.map(|estimate| (estimate.parameter.to_string(), value(estimate)));
+            estimates.collect()
+        };
+        let matrix = &fitted.correlation;
+        let correlation = PyArray1::from_slice(py, matrix.as_slice());
+        Ok(Self {
+            parameters: named(estimates(|estimate| estimate.value))?,
+            errors: named(estimates(|estimate| estimate.standard_error))?,
+            values: named(values(fitted))?,
+            correlation: correlation
+                .reshape([matrix.nrows(), matrix.ncols()])?
+                .unbind(),
+            a_minus_b: fitted.a_minus_b,
+            rms: fitted.rms,
+            aic: fitted.aic,
+            correlated_errors: fitted.errors == Errors::Correlated,
+            lag_one: fitted.lag_one,
+            effective_samples: fitted.effective_samples,
+            spikes: (fitted.spikes.iter())
+                .map(|spike| (spike.time, spike.residual))
+                .collect(),
+            warnings: fitted.warnings.iter().map(ToString::to_string).collect(),
+            t: record.times().to_vec(),
+            mu: fitted.friction.clone(),
+            residuals: fitted.residuals.clone(),
+            laws: fitted.laws.iter().map(ToString::to_string).collect(),
+            text: fitted.to_string(),
+        })
     }
+}
 
-    fn table<'py>(
-        &self,
-        py: Python<'py>,
-        value: impl Fn(&stickslip::lab::Estimate) -> f64,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let table = PyDict::new(py);
-        for estimate in &self.fitted.estimates {
-            table.set_item(estimate.parameter.to_string(), value(estimate))?;
-        }
-        Ok(table)
-    }
+/// The parameters that the model has, by name.
+fn values(fitted: &Fitted) -> Vec<(String, f64)> {
+    let states = 0..fitted.parameters.states.len();
+    let of_states = states.flat_map(|i| {
+        [
+            Parameter::B(i),
+            Parameter::SlipDistance(i),
+            Parameter::InitialState(i),
+        ]
+    });
+    let others = [
+        Parameter::Stiffness,
+        Parameter::ReferenceFriction,
+        Parameter::Trend,
+        Parameter::StepOffset,
+        Parameter::InitialStress,
+    ];
+    let all = [Parameter::A].into_iter().chain(of_states).chain(others);
+    all.map(|parameter| (parameter.to_string(), fitted.value(parameter)))
+        .collect()
 }
 
 #[pymethods]
 impl FitResult {
-    /// Fitted parameters by name, in SI units.
-    #[getter]
-    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.table(py, |estimate| estimate.value)
-    }
-
-    /// Standard errors of the fitted parameters by name, in their units.
-    #[getter]
-    fn errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.table(py, |estimate| estimate.standard_error)
-    }
-
-    /// Correlations of the fitted parameters, in the order of `parameters`.
-    #[getter]
-    fn correlation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let matrix = &self.fitted.correlation;
-        PyArray1::from_slice(py, matrix.as_slice()).reshape([matrix.nrows(), matrix.ncols()])
-    }
-
-    /// a - b and its standard error.
-    #[getter]
-    fn a_minus_b(&self) -> (f64, f64) {
-        self.fitted.a_minus_b
-    }
-
-    /// Weighted root mean square of the residuals.
-    #[getter]
-    fn rms(&self) -> f64 {
-        self.fitted.rms
-    }
-
-    /// Akaike's information criterion: of fits of the same data, the smaller one is preferred.
-    #[getter]
-    fn aic(&self) -> f64 {
-        self.fitted.aic
-    }
-
-    /// What the data do not determine, a sentence each.
-    #[getter]
-    fn warnings(&self) -> Vec<String> {
-        self.fitted
-            .warnings
-            .iter()
-            .map(ToString::to_string)
-            .collect()
-    }
-
-    /// Whether the standard errors are those of correlated residuals, by their correlation lag_one; else of independent ones.
-    #[getter]
-    fn correlated_errors(&self) -> bool {
-        self.fitted.errors == Errors::Correlated
-    }
-
-    /// Correlation of the residuals of neighbouring samples.
-    #[getter]
-    fn lag_one(&self) -> f64 {
-        self.fitted.lag_one
-    }
-
-    /// Number of independent samples that determine a mean as well.
-    #[getter]
-    fn effective_samples(&self) -> f64 {
-        self.fitted.effective_samples
-    }
-
-    /// Samples far beside their neighbours: pairs (time [s], data minus model).
-    #[getter]
-    fn spikes(&self) -> Vec<(f64, f64)> {
-        let spikes = self.fitted.spikes.iter();
-        spikes.map(|spike| (spike.time, spike.residual)).collect()
+    #[new]
+    #[pyo3(signature = (*, parameters, errors, values, correlation, a_minus_b, rms, aic, correlated_errors, lag_one,
+                        effective_samples, spikes, warnings, t, mu, residuals, laws, text))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn new(
+        parameters: Py<PyAny>,
+        errors: Py<PyAny>,
+        values: Py<PyAny>,
+        correlation: Py<PyArray2<f64>>,
+        a_minus_b: (f64, f64),
+        rms: f64,
+        aic: f64,
+        correlated_errors: bool,
+        lag_one: f64,
+        effective_samples: f64,
+        spikes: Vec<(f64, f64)>,
+        warnings: Vec<String>,
+        t: Vec<f64>,
+        mu: Vec<f64>,
+        residuals: Vec<f64>,
+        laws: Vec<String>,
+        text: String,
+    ) -> Self {
+        Self {
+            parameters,
+            errors,
+            values,
+            correlation,
+            a_minus_b,
+            rms,
+            aic,
+            correlated_errors,
+            lag_one,
+            effective_samples,
+            spikes,
+            warnings,
+            t,
+            mu,
+            residuals,
+            laws,
+            text,
+        }
     }
 
     /// Times of the samples [s].
     #[getter]
     fn t<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        view(slf, |result| result.times.as_slice().into())
+        view(slf, |result| result.t.as_slice().into())
     }
 
     /// Coefficient of friction of the model at the samples.
     #[getter]
     fn mu<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        view(slf, |result| result.fitted.friction.as_slice().into())
+        view(slf, |result| result.mu.as_slice().into())
     }
 
     /// Data minus model at the samples.
     #[getter]
     fn residuals<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        view(slf, |result| result.fitted.residuals.as_slice().into())
+        view(slf, |result| result.residuals.as_slice().into())
     }
 
-    /// Names of the state laws.
-    #[getter]
-    fn laws(&self) -> Vec<&'static str> {
-        self.fitted.laws.clone()
+    /// A parameter by its name, fitted or fixed: a, b1 or b, L1, L or Dc, b2, L2, k, mu0, trend, step_offset.
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        self.values.bind(py).get_item(name)
     }
 
-    /// A parameter by its name, fitted or fixed.
-    fn __getitem__(&self, name: &str) -> PyResult<f64> {
-        Ok(self.fitted.value(self.parameter(name)?))
+    /// A table of pandas with a row per fitted parameter: its value and its standard error.
+    fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let table = fields!(py, self; parameters, errors);
+        helper(py, "_frames", "fit", (table,))
     }
 
-    fn __str__(&self) -> String {
-        self.fitted.to_string()
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, own) = (slf.py(), slf.get());
+        let given = fields!(py, own; parameters, errors, values, correlation, a_minus_b, rms, aic, correlated_errors,
+            lag_one, effective_samples, spikes, warnings, laws, text);
+        for curve in ["t", "mu", "residuals"] {
+            given.set_item(curve, slf.getattr(curve)?)?;
+        }
+        reduced::<Self>(py, given)
     }
 
-    fn __repr__(&self) -> String {
-        let parameters = self.fitted.estimates.iter();
-        let parameters: Vec<_> = parameters
-            .map(|estimate| format!("{}={:.6e}", estimate.parameter, estimate.value))
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let table = fields!(py, self; parameters, errors, rms, warnings);
+        helper(py, "_plain", "fit", (table,))?.extract()
+    }
+
+    fn __str__(&self) -> &str {
+        &self.text
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let parameters = self.parameters.bind(py).cast::<PyDict>()?.iter();
+        let parameters: PyResult<Vec<_>> = parameters
+            .map(|(name, value)| Ok(format!("{name}={:.6e}", value.extract::<f64>()?)))
             .collect();
-        format!("FitResult({})", parameters.join(", "))
+        Ok(format!("FitResult({})", parameters?.join(", ")))
     }
 }

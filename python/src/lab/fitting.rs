@@ -131,5 +131,5 @@ pub(crate) fn fit(
     }
     let call = Call::begin()?;
     let fitted = call.detach(py, || fit.run(&record, &load));
-    Ok(FitResult::new(py, &record, refused(py, fitted)?))
+    FitResult::of(py, &record, &refused(py, fitted)?)
 }

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use stickslip::lab::{Healing as Read, Record};
 
 use super::history::{history, refused};
+use crate::plain::{Reduced, fields, helper, ranges, reduced};
 
 /// The holds of a record: arrays with one entry per hold, and the healing rate.
 #[pyclass(frozen, get_all, module = "stickslip")]
@@ -23,6 +24,40 @@ pub(crate) struct Healing {
 
 #[pymethods]
 impl Healing {
+    #[new]
+    #[pyo3(signature = (*, duration, healing, relaxation, rate, standard_error))]
+    fn new(
+        duration: Py<PyArray1<f64>>,
+        healing: Py<PyArray1<f64>>,
+        relaxation: Py<PyArray1<f64>>,
+        rate: f64,
+        standard_error: f64,
+    ) -> Self {
+        Self {
+            duration,
+            healing,
+            relaxation,
+            rate,
+            standard_error,
+        }
+    }
+
+    /// A table of pandas with a row per hold.
+    fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let columns = fields!(py, self; duration, healing, relaxation);
+        helper(py, "_frames", "columns", (columns,))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let given = fields!(py, self; duration, healing, relaxation, rate, standard_error);
+        reduced::<Self>(py, given)
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let arrays = fields!(py, self; duration, healing, relaxation);
+        ranges(&self.__repr__(), &arrays)
+    }
+
     fn __repr__(&self) -> String {
         format!(
             "Healing(rate={:.6}, standard_error={:.6})",
