@@ -2,6 +2,7 @@
 
 mod arguments;
 
+use arguments::argument_of;
 pub(crate) use arguments::{Bare, argument, misfit, of_argument};
 
 use pyo3::IntoPyObjectExt;
@@ -128,6 +129,15 @@ pub(crate) fn scene(py: Python<'_>, error: &SceneError) -> PyErr {
             HeldApart { vertex, component, value },
         });
         let message = worded(error.to_string(), error.hint(), hint_of_scene(error));
+        let argument = match error {
+            SceneError::Value { what, .. } => argument_of(what),
+            SceneError::Unbalanced { .. } => Some("slip_rate"),
+            _ => None,
+        };
+        let message = match argument {
+            Some(argument) => format!("{argument}: {message}"),
+            None => message,
+        };
         exception(py, "SceneError", message, fields)
     })())
 }
@@ -241,10 +251,14 @@ pub(crate) fn kernel(py: Python<'_>, error: &KernelError) -> PyErr {
             ("bound", bound.into_py_any(py)?),
             ("value", value.into_py_any(py)?),
         ];
+        let message = match argument_of(what) {
+            Some(argument) => format!("{argument}: {error}"),
+            None => error.to_string(),
+        };
         exception(
             py,
             "FaultError",
-            error.to_string(),
+            message,
             ("KernelError".to_owned(), fields),
         )
     })())

@@ -24,7 +24,9 @@ mod _stickslip {
     #[pymodule_export]
     use super::bodies::{Body, BodyRun, BodySimulation, BodyState, ContactState, Mesh, Part};
     #[pymodule_export]
-    use super::faults::{FaultRun, FaultSimulation, LineFault, PlaneFault, SeasFiles, SeasTable};
+    use super::faults::{
+        FaultRun, FaultSimulation, FaultSystem, LineFault, PlaneFault, SeasFiles, SeasTable,
+    };
     #[pymodule_export]
     use super::lab::{FitResult, Healing, fit, healing, slide_hold_slide, velocity_step};
     #[pymodule_export]

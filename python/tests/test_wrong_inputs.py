@@ -93,7 +93,23 @@ def seas(**wrong: object) -> object:
     return ss.SeasFiles(**{"folder": "files", "problem": "BP1", **wrong})  # type: ignore[arg-type]
 
 
+T = np.linspace(0.0, 10.0, 100)
+
+
+def fit(**wrong: object) -> object:
+    return ss.fit(**{"t": T, "mu": np.full(100, 0.6), "load": [(0.0, 1e-6), (5.0, 1e-5)], **wrong})  # type: ignore[arg-type]
+
+
 WRONG: list[Wrong] = [
+    (fit, {"t": "times"}, "t"),
+    (fit, {"mu": [None] * 100}, "mu"),
+    (fit, {"mu": T[:50]}, "100 samples"),
+    (fit, {"load": 1e-6}, "load"),
+    (fit, {"window": 3.0}, "window"),
+    (fit, {"fixed": [0.01]}, "fixed"),
+    (fit, {"states": -1}, "states"),
+    (fit, {"trend": "parabola"}, "trend"),
+    (fit, {"loss": "cubes"}, "loss"),
     (slider, {"stiffness": "stiff"}, "stiffness"),
     (slider, {"stiffness": 0.0}, "stiffness"),
     (slider, {"stiffness": None}, "stiffness"),
@@ -138,11 +154,11 @@ WRONG: list[Wrong] = [
     (line, {"cells": -8}, "cells"),
     (line, {"cells": 0}, "cells"),
     (line, {"cells": 8.0}, "cells"),
-    (line, {"shear_modulus": 0.0}, "shear modulus"),
-    (line, {"shear_wave_speed": math.nan}, "wave speed"),
+    (line, {"shear_modulus": 0.0}, "shear_modulus"),
+    (line, {"shear_wave_speed": math.nan}, "shear_wave_speed"),
     (line, {"space": "full"}, "space"),
     (line, {"space": 2}, "space"),
-    (line, {"poisson_ratio": 0.5}, "Poisson"),
+    (line, {"poisson_ratio": 0.5}, "poisson_ratio"),
     (line, {"dip": 30.0}, "dip"),
     (line, {"sense": "left", "poisson_ratio": 0.25}, "sense"),
     (cells, {"a": [0.01] * 7}, "a"),
@@ -150,12 +166,12 @@ WRONG: list[Wrong] = [
     (cells, {"b": [[0.01], [0.01, 0.02]]}, "b"),
     (cells, {"Dc": 1e-2 + 1j}, "Dc"),
     (cells, {"normal_stress": "50 MPa"}, "normal_stress"),
-    (cells, {"normal_stress": -5e7}, "normal stress"),
+    (cells, {"normal_stress": -5e7}, "normal_stress"),
     (cells, {"shear_stress": None}, "shear_stress"),
     (cells, {"shear_stress": [math.nan] * 8}, "shear_stress"),
     (cells, {"theta": 0.0}, "theta"),
     (cells, {"log_theta": 1.0}, "theta"),
-    (cells, {"slip_rate": 1.0}, "slip rate"),
+    (cells, {"slip_rate": 1.0}, "slip_rate"),
     (cells, {"plate_rate": [1e-9] * 9}, "plate_rate"),
     (cells, {"friction": "cut-off"}, "friction"),
     (cells, {"law": ["aging"] * 3}, "law"),

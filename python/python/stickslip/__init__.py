@@ -1,6 +1,7 @@
 """Rate- and state-dependent friction: spring sliders, faults and laws of your own. Units are SI."""
 
 from ._errors import ArgumentError, ArgumentTypeError, ArgumentValueError, FaultError, FileError, FitError, FrictionLawError, MeshError, SceneError, StateLawError, StepError, StickslipError
+from ._errors import named as _named
 from ._stickslip import (
     Body,
     BodyRun,
@@ -11,6 +12,7 @@ from ._stickslip import (
     ContactState,
     FaultRun,
     FaultSimulation,
+    FaultSystem,
     FitResult,
     Healing,
     LineFault,
@@ -21,12 +23,17 @@ from ._stickslip import (
     SeasTable,
     SliderRun,
     SpringSlider,
-    fit,
-    healing,
-    slide_hold_slide,
-    velocity_step,
 )
 from ._stickslip import __version__ as __version__
+from ._stickslip import fit as _fit
+from ._stickslip import healing as _healing
+from ._stickslip import slide_hold_slide as _slide_hold_slide
+from ._stickslip import velocity_step as _velocity_step
+
+fit = _named(_fit)
+healing = _named(_healing)
+slide_hold_slide = _named(_slide_hold_slide)
+velocity_step = _named(_velocity_step)
 
 __all__ = [
     "ArgumentError",
@@ -42,6 +49,7 @@ __all__ = [
     "FaultError",
     "FaultRun",
     "FaultSimulation",
+    "FaultSystem",
     "FileError",
     "FitError",
     "FitResult",

@@ -397,6 +397,50 @@ class PlaneFault:
     def __len__(self) -> int: ...
 
 @final
+class FaultSystem:
+    def __new__(
+        cls,
+        planes: Sequence[PlaneFault],
+        *,
+        strikes: Sequence[float],
+        origins: Sequence[tuple[float, float]],
+    ) -> Self: ...
+    @property
+    def planes(self) -> list[PlaneFault]: ...
+    @property
+    def strikes(self) -> list[float]: ...
+    @property
+    def origins(self) -> list[tuple[float, float]]: ...
+    @property
+    def ranges(self) -> list[tuple[int, int]]: ...
+    @property
+    def centers(self) -> Array: ...
+    def simulation(
+        self,
+        *,
+        a: PerVertex | None = None,
+        b: PerVertex | None = None,
+        Dc: PerVertex | None = None,
+        normal_stress: PerVertex,
+        shear_stress: PerVertex,
+        theta: PerVertex | None = None,
+        log_theta: PerVertex | None = None,
+        slip_rate: PerVertex | None = None,
+        mu0: PerVertex = 0.6,
+        V0: PerVertex = 1e-6,
+        plate_rate: PerVertex = 0.0,
+        stress_rate: PerVertex | None = None,
+        friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
+        law: str | AnyState | Sequence[AnyState] = "aging",
+        allow_opening: bool = False,
+        pressure: Callable[[float], PerVertex] | None = None,
+        overstress: Callable[[float], PerVertex] | None = None,
+        alpha: PerVertex | None = None,
+    ) -> FaultSimulation: ...
+    def _repr_html_(self) -> str: ...
+    def __len__(self) -> int: ...
+
+@final
 class FaultSimulation:
     def run(
         self,

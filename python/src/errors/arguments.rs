@@ -5,6 +5,26 @@ use pyo3::prelude::*;
 
 use super::{Attributes, exception, made};
 
+/// The argument of this module that gives a quantity of the library.
+pub(super) fn argument_of(what: &str) -> Option<&'static str> {
+    let quantities = [
+        ("normal stress", "normal_stress"),
+        ("shear modulus", "shear_modulus"),
+        ("shear wave speed", "shear_wave_speed"),
+        ("Poisson's ratio", "poisson_ratio"),
+        ("dip ", "dip"),
+        ("rake ", "rake"),
+        ("number of cells", "cells"),
+        ("depth [m] of the fault's upper end", "ends"),
+        ("distance [m] down dip of the fault's upper end", "ends"),
+        ("distance [m] of the plane's upper end", "down_dip"),
+    ];
+    let found = quantities
+        .iter()
+        .find(|(quantity, _)| what.starts_with(quantity));
+    found.map(|&(_, argument)| argument)
+}
+
 /// An exception whose message begins with the name of an argument.
 pub(crate) fn of_argument(py: Python<'_>, name: &str, error: PyErr) -> PyErr {
     made((|| {

@@ -1,9 +1,11 @@
 //! A planar fault: cells, rock, and the operators of its motion.
 
-use stickslip::bie::{Cells, DippingFault, Fault, PlaneFault};
+use stickslip::bie::{
+    Cells, DippingFault, Fault, FaultCells, FaultGeometry, FaultSystem, PlaneFault,
+};
 use stickslip::integrate::Stepper;
 use stickslip::nalgebra::Vector2;
-use stickslip::{BoundaryPart, Operator, RungeKutta, Scene, SceneError};
+use stickslip::{Operator, RungeKutta, Scene, SceneError};
 
 use super::friction::CellFriction;
 use super::loading::Loading;
@@ -20,6 +22,10 @@ pub(super) enum Geometry {
     Plane(PlaneFault<1>),
     /// A plane with two components of slip.
     Free(PlaneFault<2>),
+    /// Several planes with fixed rakes.
+    Planes(FaultSystem<1>),
+    /// Several planes with two components of slip.
+    FreePlanes(FaultSystem<2>),
 }
 
 /// A motion, or the reason why there is none.
@@ -33,6 +39,8 @@ impl Geometry {
             Self::Dipping(fault) => fault.cells().count(),
             Self::Plane(fault) => fault.cells().count(),
             Self::Free(fault) => fault.cells().count(),
+            Self::Planes(system) => system.vertex_count(),
+            Self::FreePlanes(system) => system.vertex_count(),
         }
     }
 
@@ -40,6 +48,7 @@ impl Geometry {
     pub(super) fn layout(&self) -> Layout {
         let shape = match self {
             Self::Line(_) | Self::Dipping(_) => None,
+            Self::Planes(_) | Self::FreePlanes(_) => None,
             Self::Plane(fault) => Some(fault.cells()),
             Self::Free(fault) => Some(fault.cells()),
         };
@@ -57,6 +66,8 @@ impl Geometry {
             Self::Dipping(fault) => line(fault.cells()),
             Self::Plane(fault) => fault.cells().map(Vector2::from),
             Self::Free(fault) => fault.cells().map(Vector2::from),
+            // Those are in space.
+            Self::Planes(_) | Self::FreePlanes(_) => Vec::new(),
         }
     }
 
@@ -66,8 +77,29 @@ impl Geometry {
             Self::Line(_) | Self::Dipping(_) => vec![[1.0, 0.0]],
             Self::Plane(fault) => fault.directions().to_vec(),
             Self::Free(fault) => fault.directions().to_vec(),
+            Self::Planes(system) => of_first(system.planes()),
+            Self::FreePlanes(system) => of_first(system.planes()),
         }
     }
+}
+
+/// The directions of slip of the first of several planes.
+fn of_first<const C: usize>(planes: &[PlaneFault<C>]) -> Vec<[f64; 2]> {
+    let first = planes.first();
+    first.map_or(Vec::new(), |plane| plane.directions().to_vec())
+}
+
+/// The motion of several planes.
+pub(super) fn system<const C: usize>(
+    system: &FaultSystem<C>,
+    loading: Loading<C>,
+    friction: CellFriction<C>,
+) -> Built<C> {
+    let scene = Scene::new(system.stiffness())
+        .with_viscosity(system.radiation_damping())
+        .with_load_history(system.back_slip(&loading.plate_rate)?)
+        .with_normal_stress_change(system.normal_stiffness(), loading.plate_rate.clone());
+    moving(scene, loading, friction, FaultGeometry::cells(system))
 }
 
 /// The motion of a line by an explicit Runge-Kutta method.
@@ -75,8 +107,7 @@ pub(super) fn line(fault: &Fault, loading: Loading<1>, friction: CellFriction<1>
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
         .with_load_history(fault.back_slip(&loading.plate_rate)?);
-    let (part, size) = (fault.into(), fault.cells().length());
-    moving(scene, loading, friction, (part, size))
+    moving(scene, loading, friction, FaultGeometry::cells(fault))
 }
 
 /// That of a dipping line.
@@ -89,8 +120,7 @@ pub(super) fn dipping(
         .with_viscosity(fault.radiation_damping())
         .with_load_history(fault.back_slip(&loading.plate_rate)?)
         .with_normal_stress_change(fault.normal_stiffness(), loading.plate_rate.clone());
-    let (part, size) = (fault.into(), fault.cells().length());
-    moving(scene, loading, friction, (part, size))
+    moving(scene, loading, friction, FaultGeometry::cells(fault))
 }
 
 /// That of a plane.
@@ -106,17 +136,16 @@ pub(super) fn plane<const C: usize>(
     if !change.is_zero() {
         scene = scene.with_normal_stress_change(change, loading.plate_rate.clone());
     }
-    let (part, size) = (fault.into(), fault.cells().area());
-    moving(scene, loading, friction, (part, size))
+    moving(scene, loading, friction, FaultGeometry::cells(fault))
 }
 
-/// Adds loads, friction and initial rates on cells of this size [m] or [m^2].
+/// Adds loads, friction and initial rates on these cells.
 fn moving<Op: Operator<C> + 'static, const C: usize>(
     scene: Scene<Op, C>,
     loading: Loading<C>,
     friction: CellFriction<C>,
-    (part, size): (BoundaryPart, f64),
+    cells: FaultCells,
 ) -> Built<C> {
-    let scene = friction.on(loading.on(scene, size), part);
+    let scene = friction.on(loading.on(scene, &cells.areas), cells.into());
     Ok(Box::new(RungeKutta::new(scene)?))
 }

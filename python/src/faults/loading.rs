@@ -57,20 +57,26 @@ impl<const C: usize> Loading<C> {
         self.slip_rate.is_some()
     }
 
-    /// The scene with stress rates, overstress and initial rates, on cells of this size [m] or [m^2].
-    pub(super) fn on<Op: Operator<C>>(self, mut scene: Scene<Op, C>, size: f64) -> Scene<Op, C> {
+    /// The scene with stress rates, overstress and initial rates, on cells of these sizes [m] or [m^2].
+    pub(super) fn on<Op: Operator<C>>(
+        self,
+        mut scene: Scene<Op, C>,
+        sizes: &[f64],
+    ) -> Scene<Op, C> {
         if let Some(rates) = self.stress_rate {
+            let sizes = sizes.to_vec();
             scene = scene.with_load_history(move |time, load| {
-                for (load, rate) in load.iter_mut().zip(&rates) {
-                    *load += rate * size * time;
+                for ((load, rate), size) in load.iter_mut().zip(&rates).zip(&sizes) {
+                    *load += rate * *size * time;
                 }
             });
         }
         if let Some(overstress) = self.overstress {
+            let sizes = sizes.to_vec();
             scene = scene.with_load_history(move |time, load| {
                 let stresses: Vec<SVector<f64, C>> = overstress.at(time);
-                for (load, stress) in load.iter_mut().zip(stresses) {
-                    *load += stress * size;
+                for ((load, stress), size) in load.iter_mut().zip(stresses).zip(&sizes) {
+                    *load += stress * *size;
                 }
             });
         }

@@ -16,6 +16,7 @@ mod record;
 mod scene;
 mod seas;
 mod seas_table;
+mod system;
 
 pub(crate) use cycle::FaultSimulation;
 pub(crate) use line::LineFault;
@@ -23,3 +24,4 @@ pub(crate) use plane::PlaneFault;
 pub(crate) use record::FaultRun;
 pub(crate) use seas::SeasFiles;
 pub(crate) use seas_table::SeasTable;
+pub(crate) use system::FaultSystem;

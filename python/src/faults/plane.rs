@@ -240,6 +240,16 @@ impl PlaneFault {
 }
 
 impl PlaneFault {
+    /// The fault of the library.
+    pub(super) fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// \[Pa\].
+    pub(super) fn shear_modulus(&self) -> f64 {
+        self.shear_modulus
+    }
+
     /// The arguments.
     fn given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let given = fields!(py, self; along_strike, down_dip, cells, shear_modulus, shear_wave_speed, poisson_ratio, space, dip);

@@ -10,7 +10,7 @@ use stickslip::state::{LogTheta, Theta};
 use super::cycle::{FaultSimulation, Motion};
 use super::friction::CellFriction;
 use super::function::CellFunction;
-use super::geometry::{Built, Geometry, dipping, line, plane};
+use super::geometry::{Built, Geometry, dipping, line, plane, system};
 use super::laws::Given;
 use super::loading::{Directed, Loading};
 use super::per_cell::Layout;
@@ -46,6 +46,12 @@ pub(super) fn simulation(
         }
         Geometry::Plane(fault) => Motion::One(built(at, given, |l, f| plane(fault, l, f))?, None),
         Geometry::Free(fault) => Motion::Two(built(at, given, |l, f| plane(fault, l, f))?, None),
+        Geometry::Planes(planes) => {
+            Motion::One(built(at, given, |l, f| system(planes, l, f))?, None)
+        }
+        Geometry::FreePlanes(planes) => {
+            Motion::Two(built(at, given, |l, f| system(planes, l, f))?, None)
+        }
     };
     Ok(FaultSimulation::new(
         motion,
