@@ -297,6 +297,7 @@ pub(crate) fn lab(py: Python<'_>, error: &LabError) -> PyErr {
             TooFewSamples { samples, parameters },
             NoVelocityStep { velocity },
             Name { name },
+            LawName { name },
             Unstable { time, stiffness },
             NoStart { starts },
             NotConverged { steps, offset },

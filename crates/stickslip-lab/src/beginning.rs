@@ -4,7 +4,7 @@ use crate::doubts::EVIDENCE;
 use crate::least_squares::{Minimum, Stop};
 use crate::loss::Scale;
 use crate::normal::Linearised;
-use crate::parameters::Parameter;
+use crate::parameter::Parameter;
 use crate::score::{Score, Tests, evidence};
 use crate::search::{COARSE, DAMPING, ROUGH, ROUGH_STEPS, Search};
 use crate::spread::Spread;

@@ -1,7 +1,8 @@
 //! Friction over time: the solution of the model at the samples.
 
 use crate::error::LabError;
-use crate::evolution::{Evolution, Law};
+use crate::evolution::Evolution;
+use crate::law::Law;
 use crate::load::LoadHistory;
 use crate::parameters::Parameters;
 use crate::point::Point;
@@ -123,8 +124,12 @@ fn system<const N: usize>(laws: &[Evolution<'_>], parameters: &Parameters) -> Sy
             }
         }),
         laws: (laws.iter().enumerate())
-            .map(|(i, &law)| Law::new(law, &parameters.friction(i)))
+            .map(|(i, &law)| Law::new(law, &parameters.friction(i), &states[i]))
             .collect(),
+        weakening: std::array::from_fn(|i| match laws.get(i.wrapping_sub(1)) {
+            Some(Evolution::Nagata) => states[i - 1].stress_weight / states[i - 1].b,
+            _ => 0.0,
+        }),
         stiffness: parameters.stiffness * v0,
         load: 0.0,
     }
@@ -140,8 +145,13 @@ fn start<const N: usize, const W: usize>(
     y[0][0] = system.a * w + point.initial_stress;
     for i in 1..N {
         let state = point.parameters.states[i - 1].initial_state;
-        y[i][0] = system.laws[i - 1].steady(w)? + state;
+        let (steady, by_parameter) = system.laws[i - 1].steady(w)?;
+        y[i][0] = steady + state;
         y[0][0] += system.b[i] * y[i][0];
+        if W > column::law::<N>(1) {
+            y[i][column::law::<N>(i)] = by_parameter;
+            y[0][column::law::<N>(i)] = system.b[i] * by_parameter;
+        }
     }
     if W > 1 {
         y[0][column::A] = w;

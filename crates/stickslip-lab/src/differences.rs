@@ -6,7 +6,7 @@ use crate::curve::Work;
 use crate::error::LabError;
 use crate::model::Model;
 use crate::normal::Linearised;
-use crate::parameters::Parameter;
+use crate::parameter::Parameter;
 
 /// The increment of a parameter in differences, of the logarithm of a positive one: the error is a millionth.
 const DIFFERENCE: f64 = 1e-3;

@@ -4,7 +4,7 @@ use crate::end::End;
 use crate::fitted::Fitted;
 use crate::levels;
 use crate::model::Model;
-use crate::parameters::Parameter;
+use crate::parameter::Parameter;
 use crate::score::Score;
 use crate::warning::Warning;
 
@@ -28,7 +28,7 @@ pub(crate) fn warnings(
     for (k, estimate) in fitted.estimates.iter().enumerate() {
         let parameter = estimate.parameter;
         let scale = match parameter {
-            Parameter::A | Parameter::SlipDistance(_) | Parameter::Stiffness => estimate.value,
+            _ if parameter.is_logarithmic() => estimate.value,
             Parameter::B(_) => parameters.a,
             // Levels, slopes, times and the beginning may be zero.
             _ => f64::INFINITY,
@@ -135,7 +135,7 @@ pub(crate) fn warnings(
             largest: largest.unwrap_or(first.residual),
         });
     }
-    let critical = parameters.critical_stiffness();
+    let critical = parameters.critical_stiffness_by(model.laws);
     if parameters.stiffness < critical {
         warnings.push(Warning::BelowCritical {
             stiffness: parameters.stiffness,

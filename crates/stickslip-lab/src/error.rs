@@ -3,6 +3,8 @@
 use stickslip_state::{Number, StateError};
 use thiserror::Error;
 
+use crate::parameter::Parameter;
+
 /// The error of a record, a curve or a fit.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -58,11 +60,29 @@ pub enum LabError {
     },
     /// No parameter has this name.
     #[error(
-        "no parameter is called `{name}`: use a, b1, b2, L1, L2, k, mu0, trend, step_offset, initial_stress, initial_state1 or initial_state2"
+        "no parameter is called `{name}`: use a, b1, b2, L1, L2, k, mu0, trend, step_offset, Vc1, Vc2, c1, c2, initial_stress, initial_state1 or initial_state2"
     )]
     Name {
         /// The name.
         name: String,
+    },
+    /// No state law has this name.
+    #[error(
+        "no state law is called `{name}`: use aging, slip, perrin-rice-zheng, kato-tullis or nagata"
+    )]
+    LawName {
+        /// The name.
+        name: String,
+    },
+    /// A parameter that the law of its state does not have.
+    #[error(
+        "the {law} law has no parameter {parameter}: leave it out, or choose its law (Vc: kato-tullis, c: nagata)"
+    )]
+    OtherLaw {
+        /// The parameter.
+        parameter: Parameter,
+        /// The law of its state.
+        law: &'static str,
     },
     /// The record has no hold with samples before, in and behind it.
     #[error("no hold in the record: give a load history with a velocity of 0 between two slides")]

@@ -1,14 +1,18 @@
-//! State laws in logarithms: the right-hand sides of the model and their derivatives.
+//! State laws by name.
 
 use std::fmt;
+use std::str::FromStr;
 
 use stickslip_friction::DieterichRuina;
-use stickslip_state::{LogTheta, StateError, StateLaw, StateVariable, increasing_root};
+use stickslip_state::{LogTheta, StateLaw};
+
+use crate::error::LabError;
+use crate::parameter::Parameter;
 
 /// A boxed state law.
 pub type BoxedLaw = Box<dyn StateLaw<State = LogTheta>>;
 
-/// The state law of one state variable.
+/// The state law of one state variable. It reads from its name, such as `kato-tullis`.
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub enum Evolution<'a> {
@@ -18,6 +22,15 @@ pub enum Evolution<'a> {
     /// Ruina's law, `theta' = -(V theta/L) ln(V theta/L)`.
     #[doc(alias = "Ruina")]
     Slip,
+    /// The law of Perrin, Rice and Zheng, `theta' = 1 - (V theta/2L)^2`, with `2L` in the place of `L` in friction.
+    PerrinRiceZheng,
+    /// The composite law of Kato and Tullis, `theta' = exp(-V/Vc) - (V theta/L) ln(V theta/L)`, with
+    /// [`aging_velocity`](crate::StateParameters::aging_velocity) for `Vc`.
+    #[doc(alias = "composite law")]
+    KatoTullis,
+    /// Nagata's law, `theta' = 1 - V theta/L - (c/b) theta mu'` with the rate of friction without the trend, and
+    /// [`stress_weight`](crate::StateParameters::stress_weight) for `c`. Of several states each has its own `b`.
+    Nagata,
     /// A state law as a function of `a`, `b`, `L` and `V0`. Its fit takes derivatives by differences.
     Custom(&'a (dyn Fn(&DieterichRuina) -> BoxedLaw + Sync)),
 }
@@ -29,118 +42,40 @@ impl fmt::Debug for Evolution<'_> {
 }
 
 impl Evolution<'_> {
-    /// Its name: `aging`, `slip` or `custom`.
+    /// Its name: `aging`, `slip`, `perrin-rice-zheng`, `kato-tullis`, `nagata` or `custom`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Aging => "aging",
             Self::Slip => "slip",
+            Self::PerrinRiceZheng => "perrin-rice-zheng",
+            Self::KatoTullis => "kato-tullis",
+            Self::Nagata => "nagata",
             Self::Custom(_) => "custom",
         }
     }
-}
 
-/// A state law with its parameters, in `phi = ln(V0 theta/L)` and `w = ln(V/V0)`: `phi' = (V0/L) G(phi, w)`.
-pub(crate) enum Law {
-    Aging,
-    Slip,
-    /// The law, `V0` and `L`.
-    Custom(BoxedLaw, f64, f64),
-}
-
-/// `G` and its first derivatives.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Rate {
-    pub(crate) value: f64,
-    pub(crate) by_w: f64,
-    pub(crate) by_phi: f64,
-}
-
-/// The second derivatives of `G`.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Curvature {
-    pub(crate) by_w_w: f64,
-    pub(crate) by_w_phi: f64,
-    pub(crate) by_phi_phi: f64,
-}
-
-/// The cube root of the machine precision, the best step of a central difference.
-const DIFFERENCE: f64 = 6e-6;
-
-impl Law {
-    pub(crate) fn new(evolution: Evolution<'_>, friction: &DieterichRuina) -> Self {
-        match evolution {
-            Evolution::Aging => Self::Aging,
-            Evolution::Slip => Self::Slip,
-            Evolution::Custom(law) => Self::Custom(
-                law(friction),
-                friction.reference_velocity,
-                friction.slip_distance,
-            ),
-        }
-    }
-
-    /// `G` at `phi` and `w`, with `faster = exp(w)`.
-    #[inline]
-    pub(crate) fn rate(&self, phi: f64, w: f64, faster: f64) -> Rate {
+    /// The parameter that the law has beside `L`, as that of state `i` from 0 on: `Vc` of Kato and Tullis, `c` of Nagata.
+    pub fn parameter(&self, i: usize) -> Option<Parameter> {
         match self {
-            Self::Aging => {
-                let younger = (-phi).exp();
-                Rate {
-                    value: younger - faster,
-                    by_w: -faster,
-                    by_phi: -younger,
-                }
-            }
-            Self::Slip => Rate {
-                value: -faster * (w + phi),
-                by_w: -faster * (w + phi + 1.0),
-                by_phi: -faster,
-            },
-            Self::Custom(law, v0, slip_distance) => {
-                let state = LogTheta(phi + (slip_distance / v0).ln());
-                let unit = slip_distance / v0;
-                let at = |w: f64| unit * law.evolution(state, v0 * w.exp());
-                Rate {
-                    value: unit * law.evolution(state, v0 * faster),
-                    by_w: (at(w + DIFFERENCE) - at(w - DIFFERENCE)) / (2.0 * DIFFERENCE),
-                    by_phi: unit * law.evolution_state_slope(state, v0 * faster),
-                }
-            }
+            Self::KatoTullis => Some(Parameter::AgingVelocity(i)),
+            Self::Nagata => Some(Parameter::StressWeight(i)),
+            _ => None,
         }
     }
+}
 
-    /// The second derivatives; of a custom law, whose sensitivities are differences, there are none.
-    #[inline]
-    pub(crate) fn curvature(&self, phi: f64, w: f64, faster: f64) -> Curvature {
-        match self {
-            Self::Aging => Curvature {
-                by_w_w: -faster,
-                by_w_phi: 0.0,
-                by_phi_phi: (-phi).exp(),
-            },
-            Self::Slip => Curvature {
-                by_w_w: -faster * (w + phi + 2.0),
-                by_w_phi: -faster,
-                by_phi_phi: 0.0,
-            },
-            Self::Custom(..) => Curvature::default(),
-        }
-    }
+impl FromStr for Evolution<'static> {
+    type Err = LabError;
 
-    /// The steady `phi` at `w`.
-    pub(crate) fn steady(&self, w: f64) -> Result<f64, StateError> {
-        let Self::Custom(law, v0, slip_distance) = self else {
-            return Ok(-w);
-        };
-        law.validate()?;
-        let slip_rate = v0 * w.exp();
-        let root = increasing_root((slip_distance / slip_rate).ln(), |value| {
-            let state = LogTheta::from_value(value);
-            (
-                -law.evolution(state, slip_rate),
-                -law.evolution_state_slope(state, slip_rate),
-            )
-        })?;
-        Ok(root + (v0 / slip_distance).ln())
+    fn from_str(name: &str) -> Result<Self, LabError> {
+        let laws = [
+            Self::Aging,
+            Self::Slip,
+            Self::PerrinRiceZheng,
+            Self::KatoTullis,
+            Self::Nagata,
+        ];
+        let found = laws.into_iter().find(|law| law.name() == name);
+        found.ok_or_else(|| LabError::LawName { name: name.into() })
     }
 }

@@ -15,6 +15,8 @@ pub(crate) struct Features {
     pub(crate) stiffness: f64,
     /// The displacement of the load point between samples and over the longest piece \[m\].
     pub(crate) distances: (f64, f64),
+    /// The slowest and the fastest slip rate [m/s]: those of slides, and `a/(k t)` at the end of a hold of `t`.
+    pub(crate) rates: (f64, f64),
 }
 
 /// A piece of constant velocity and its samples.
@@ -86,11 +88,15 @@ impl Features {
         let or = |value: f64, otherwise: f64| if value > 0.0 { value } else { otherwise };
         let found = or(curve.stiffness(), spread / longest);
         let direct_effect = (curve.steps()).max(curve.relaxation(stiffness.unwrap_or(found)));
+        let direct_effect = or(direct_effect, or(spread, f64::MIN_POSITIVE));
+        let found = or(found, 1.0 / or(longest, 1.0));
+        let rates = curve.rates(direct_effect / stiffness.unwrap_or(found));
         Self {
             a_minus_b: slope(&levels),
-            direct_effect: or(direct_effect, or(spread, f64::MIN_POSITIVE)),
-            stiffness: or(found, 1.0 / or(longest, 1.0)),
+            direct_effect,
+            stiffness: found,
             distances: (or(shortest, 1.0), or(longest, 1.0)),
+            rates,
         }
     }
 }
@@ -103,6 +109,20 @@ impl Curve<'_> {
         let from = self.times.partition_point(|&time| time < quarter);
         let last = &of[from.clamp(start, end - 1)..end];
         last.iter().sum::<f64>() / last.len() as f64
+    }
+
+    /// The slowest and the fastest slip rate, of a hold with the slip `a/k` per factor of e in time.
+    fn rates(&self, relaxation: f64) -> (f64, f64) {
+        let rates = self.pieces.iter().map(|piece| {
+            if piece.velocity > 0.0 {
+                return piece.velocity;
+            }
+            relaxation / (self.times[piece.samples.end - 1] - piece.start)
+        });
+        let rates = rates.filter(|rate| *rate > 0.0 && rate.is_finite());
+        rates.fold((f64::INFINITY, 0.0), |(low, high), rate| {
+            (low.min(rate), high.max(rate))
+        })
     }
 
     fn spread(&self) -> f64 {

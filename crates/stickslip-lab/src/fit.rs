@@ -7,15 +7,16 @@ use crate::fitted::Fitted;
 use crate::load::LoadHistory;
 use crate::loss::Loss;
 use crate::model::Trend;
-use crate::parameters::{Parameter, Parameters};
+use crate::parameter::Parameter;
+use crate::parameters::Parameters;
 use crate::point::Point;
 use crate::record::Record;
 use crate::search::Search;
 
 /// A least-squares fit of friction to the record of an experiment.
 ///
-/// Fitted are `a`, `b` and `L` of each state, `mu0`, the stiffness unless it is fixed, and on demand a trend and the
-/// initial states. The starts are computed from the curve.
+/// Fitted are `a`, `b` and `L` of each state, `mu0`, the stiffness unless it is fixed, and on demand a trend, the
+/// initial states, and parameters of state laws. The starts are computed from the curve.
 ///
 /// ```
 /// use stickslip_lab::{Evolution, Fit, LoadHistory, Parameter, Parameters, Record};
@@ -47,6 +48,8 @@ pub struct Fit<'a> {
     pub(crate) guess: Option<Parameters>,
     /// Guesses of single parameters.
     pub(crate) guesses: Vec<(Parameter, f64)>,
+    /// Parameters of laws that are fitted.
+    pub(crate) freed: Vec<Parameter>,
 }
 
 impl<'a> Fit<'a> {
@@ -62,6 +65,7 @@ impl<'a> Fit<'a> {
             bounds: Vec::new(),
             guess: None,
             guesses: Vec::new(),
+            freed: Vec::new(),
         }
     }
 
@@ -75,6 +79,20 @@ impl<'a> Fit<'a> {
     #[must_use]
     pub fn with_fixed(self, parameter: Parameter, value: f64) -> Self {
         self.with_bounds(parameter, value, value)
+    }
+
+    /// Fits a parameter of a state law, too: `Vc` of Kato and Tullis, `c` of Nagata. It is held at the published value else,
+    /// unless it has bounds or a guess. Other parameters are fitted anyway.
+    ///
+    /// ```
+    /// use stickslip_lab::{Evolution, Fit, Parameter};
+    ///
+    /// let fit = Fit::new(&[Evolution::Nagata]).with_free(Parameter::StressWeight(0));
+    /// ```
+    #[must_use]
+    pub fn with_free(mut self, parameter: Parameter) -> Self {
+        self.freed.push(parameter);
+        self
     }
 
     /// Keeps a parameter between two values, both included; the last call for a parameter counts.

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::model::Model;
-use crate::parameters::Parameter;
+use crate::parameter::Parameter;
 
 /// Akaike's information criterion of the levels `mu0 + (a - b) ln(V_lp/V0)`, with the trend of the model; `None` with
 /// holds, which have no level.

@@ -7,7 +7,7 @@ use crate::error::LabError;
 use crate::evolution::Evolution;
 use crate::load::LoadHistory;
 use crate::normal::Linearised;
-use crate::parameters::Parameter;
+use crate::parameter::Parameter;
 use crate::point::Point;
 use crate::record::Record;
 
@@ -133,7 +133,15 @@ impl Model<'_> {
             )
         });
         let stiffness = self.free.contains(&Parameter::Stiffness);
+        let one = self.laws.len() == 1;
         // As few columns as the parameters need.
+        if self.free.iter().any(|parameter| parameter.is_of_law()) {
+            return if one {
+                self.by_sensitivities::<2, 8>(&point, tolerance, work)
+            } else {
+                self.by_sensitivities::<3, 12>(&point, tolerance, work)
+            };
+        }
         match (self.laws.len(), initial, stiffness) {
             (1, false, false) => self.by_sensitivities::<2, 4>(&point, tolerance, work),
             (1, false, true) => self.by_sensitivities::<2, 5>(&point, tolerance, work),
@@ -161,6 +169,9 @@ impl Model<'_> {
                 Parameter::Stiffness => (column::stiffness::<N>(), 1.0),
                 Parameter::InitialState(i) => (column::initial_state::<N>(i + 1), 1.0),
                 Parameter::InitialStress => (column::initial_stress::<N>(), 1.0),
+                Parameter::AgingVelocity(i) | Parameter::StressWeight(i) => {
+                    (column::law::<N>(i + 1), 1.0)
+                }
                 Parameter::ReferenceFriction | Parameter::Trend | Parameter::StepOffset => (0, 0.0),
             })
             .collect();

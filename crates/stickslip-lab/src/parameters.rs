@@ -1,11 +1,9 @@
 //! The parameters of the model.
 
-use std::fmt;
-use std::str::FromStr;
-
 use stickslip_friction::DieterichRuina;
 
 use crate::error::LabError;
+use crate::evolution::Evolution;
 
 /// The evolution effect of one state variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,17 +13,32 @@ pub struct StateParameters {
     /// `L` \[m\], the characteristic slip distance, > 0.
     #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
-    /// `ln(theta V/L)` at the first sample, with the slip rate `V` of the load point there; 0 in steady sliding.
+    /// `ln(theta/theta_ss)` at the first sample, with the steady state `theta_ss` at the slip rate of the load point there,
+    /// `L/V` by most laws; 0 in steady sliding.
     pub initial_state: f64,
+    /// `Vc` > 0 [m/s] of the law of Kato and Tullis, up to which contacts age; other laws do not have it.
+    pub aging_velocity: f64,
+    /// `c` > 0 of Nagata's law, the weight of the stress rate; other laws do not have it.
+    pub stress_weight: f64,
 }
 
+/// `Vc` [m/s]. Source: N. Kato, T. E. Tullis, "A composite rate- and state-dependent law for rock friction", Geophys. Res.
+/// Lett. 28 (2001).
+const AGING_VELOCITY: f64 = 1e-8;
+/// `c`. Source: K. Nagata, M. Nakatani, S. Yoshida, "A revised rate- and state-dependent friction law obtained by
+/// constraining constitutive and evolution laws separately with laboratory data", J. Geophys. Res. 117 (2012).
+const STRESS_WEIGHT: f64 = 2.0;
+
 impl StateParameters {
-    /// A state that is steady at the first sample.
+    /// A state that is steady at the first sample, with the published parameters of laws: `Vc` = 1e-8 m/s of Kato and Tullis
+    /// (2001), `c` = 2 of Nagata, Nakatani and Yoshida (2012).
     pub fn steady(b: f64, slip_distance: f64) -> Self {
         Self {
             b,
             slip_distance,
             initial_state: 0.0,
+            aging_velocity: AGING_VELOCITY,
+            stress_weight: STRESS_WEIGHT,
         }
     }
 }
@@ -86,24 +99,36 @@ impl Parameters {
         }
     }
 
-    /// The critical stiffness `K/sigma_n` [1/m]: steady sliding on a softer spring is unstable.
+    /// The critical stiffness `K/sigma_n` [1/m] by the aging or slip law: steady sliding on a softer spring is unstable.
     ///
     /// With one state `(b - a)/L`, else the root of the characteristic polynomial. It is at most 0 if no spring is
     /// unstable. Source: J.-C. Gu, J. R. Rice, A. L. Ruina, S. T. Tse, *Slip motion and stability of a single degree of
     /// freedom elastic system with rate and state dependent friction*, J. Mech. Phys. Solids 32 (1984).
     pub fn critical_stiffness(&self) -> f64 {
+        self.critical_stiffness_by(&[])
+    }
+
+    /// The critical stiffness [1/m] by these state laws, one per state: with one state of Nagata's law
+    /// `(b - a)/(L (1 + c))`. The law of Kato and Tullis counts as the slip law, which it is far above `Vc`; laws of one's own
+    /// count as the aging law.
+    pub fn critical_stiffness_by(&self, laws: &[Evolution<'_>]) -> f64 {
+        // With p = 1/L1, q = 1/L2 and the rate s per slip: a s + k = sum s (b_i p_i - c_i k)/(s + p_i).
+        let weight = |i: usize| match laws.get(i) {
+            Some(Evolution::Nagata) => self.states[i].stress_weight,
+            _ => 0.0,
+        };
         match self.states[..] {
-            [one] => (one.b - self.a) / one.slip_distance,
+            [one] => (one.b - self.a) / (one.slip_distance * (1.0 + weight(0))),
             [one, two] => {
-                // With p = 1/L1, q = 1/L2 and the rate s per slip: a s + k = sum b_i s p_i/(s + p_i), a cubic
-                // a s^3 + x s^2 + y s + k p q with x = c + k and y = d + k (p + q), whose roots have real part zero
+                // A cubic a s^3 + x s^2 + y s + k p q with x = c + k m and y = d + k n, whose roots have real part zero
                 // where x y = a k p q.
                 let (p, q) = (1.0 / one.slip_distance, 1.0 / two.slip_distance);
                 let c = self.a * (p + q) - one.b * p - two.b * q;
                 let d = (self.a - one.b - two.b) * p * q;
-                let (sum, product) = (p + q, p * q);
-                let half = 0.5 * (c * sum + d - self.a * product) / sum;
-                let discriminant = half * half - c * d / sum;
+                let m = 1.0 + weight(0) + weight(1);
+                let n = p + q + weight(0) * q + weight(1) * p;
+                let half = 0.5 * (c * n + d * m - self.a * p * q) / (m * n);
+                let discriminant = half * half - c * d / (m * n);
                 if discriminant < 0.0 {
                     return 0.0;
                 }
@@ -126,114 +151,12 @@ impl Parameters {
             LabError::check_finite("b", i, state.b)?;
             LabError::check_positive("slip distance [m]", i, state.slip_distance)?;
             LabError::check_finite("initial state", i, state.initial_state)?;
+            LabError::check_positive("aging velocity Vc [m/s]", i, state.aging_velocity)?;
+            LabError::check_positive("stress weight c", i, state.stress_weight)?;
         }
         LabError::check_finite("reference friction", 0, self.reference_friction)?;
         LabError::check_positive("reference velocity [m/s]", 0, self.reference_velocity)?;
         LabError::check_positive("stiffness [1/m]", 0, self.stiffness)?;
         LabError::check_finite("trend", 0, self.trend)
-    }
-}
-
-/// A parameter of a fit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Parameter {
-    /// `a`.
-    A,
-    /// `b` of a state, from 0 on.
-    B(usize),
-    /// `L` of a state, from 0 on \[m\].
-    SlipDistance(usize),
-    /// `K/sigma_n` [1/m].
-    Stiffness,
-    /// `ln(theta V/L)` of a state at the first sample, from 0 on.
-    InitialState(usize),
-    /// `mu0`.
-    ReferenceFriction,
-    /// The slope of the trend [1/s] or [1/m].
-    Trend,
-    /// The time by which all velocity changes are later than the load history says \[s\].
-    StepOffset,
-    /// Shear over normal stress at the first sample above that at which the block slides with the load point, in its initial
-    /// state: its slip rate is `V_lp exp(initial_stress/a)`.
-    InitialStress,
-}
-
-impl Parameter {
-    /// Whether the fit varies its logarithm: it is positive.
-    pub(crate) fn is_logarithmic(self) -> bool {
-        matches!(self, Self::A | Self::SlipDistance(_) | Self::Stiffness)
-    }
-
-    /// Requires a model with the state of the parameter.
-    pub(crate) fn check_state(self, states: usize) -> Result<(), LabError> {
-        match self {
-            Self::B(i) | Self::SlipDistance(i) | Self::InitialState(i) if i >= states => {
-                Err(LabError::States {
-                    expected: "as many as there are state laws",
-                    found: i + 1,
-                })
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Its value; 0 of the time of steps and of the initial stress, which are no parameters of friction or machine
-    /// ([`Fitted::value`](crate::Fitted::value) has them).
-    pub fn of(self, parameters: &Parameters) -> f64 {
-        match self {
-            Self::A => parameters.a,
-            Self::B(i) => parameters.states[i].b,
-            Self::SlipDistance(i) => parameters.states[i].slip_distance,
-            Self::Stiffness => parameters.stiffness,
-            Self::InitialState(i) => parameters.states[i].initial_state,
-            Self::ReferenceFriction => parameters.reference_friction,
-            Self::Trend => parameters.trend,
-            Self::StepOffset | Self::InitialStress => 0.0,
-        }
-    }
-}
-
-impl fmt::Display for Parameter {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let numbered = |name: &str, i: usize| format!("{name}{}", i + 1);
-        f.pad(&match *self {
-            Self::A => "a".into(),
-            Self::B(i) => numbered("b", i),
-            Self::SlipDistance(i) => numbered("L", i),
-            Self::Stiffness => "k".into(),
-            Self::InitialState(i) => numbered("initial_state", i),
-            Self::ReferenceFriction => "mu0".into(),
-            Self::Trend => "trend".into(),
-            Self::StepOffset => "step_offset".into(),
-            Self::InitialStress => "initial_stress".into(),
-        })
-    }
-}
-
-impl FromStr for Parameter {
-    type Err = LabError;
-
-    /// Reads the name that is displayed; `b` and `L` are those of the first state.
-    fn from_str(name: &str) -> Result<Self, LabError> {
-        let numbered: [fn(usize) -> Self; 3] = [Self::B, Self::SlipDistance, Self::InitialState];
-        let states = numbered
-            .iter()
-            .flat_map(|parameter| [parameter(0), parameter(1)]);
-        let all = [
-            Self::A,
-            Self::Stiffness,
-            Self::ReferenceFriction,
-            Self::Trend,
-            Self::StepOffset,
-            Self::InitialStress,
-        ];
-        let mut all = all.into_iter().chain(states);
-        let found = match name {
-            "b" => Some(Self::B(0)),
-            "L" => Some(Self::SlipDistance(0)),
-            _ => all.find(|parameter| parameter.to_string() == name),
-        };
-        found.ok_or_else(|| LabError::Name { name: name.into() })
     }
 }

@@ -1,6 +1,7 @@
 //! The parameters of a fit at one point: those of friction and machine, and those of the experiment.
 
-use crate::parameters::{Parameter, Parameters};
+use crate::parameter::Parameter;
+use crate::parameters::Parameters;
 
 /// The parameters of a curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +40,8 @@ impl Point {
             Parameter::SlipDistance(i) => &mut parameters.states[i].slip_distance,
             Parameter::Stiffness => &mut parameters.stiffness,
             Parameter::InitialState(i) => &mut parameters.states[i].initial_state,
+            Parameter::AgingVelocity(i) => &mut parameters.states[i].aging_velocity,
+            Parameter::StressWeight(i) => &mut parameters.states[i].stress_weight,
             Parameter::ReferenceFriction => &mut parameters.reference_friction,
             Parameter::Trend => &mut parameters.trend,
             Parameter::StepOffset => &mut self.step_offset,

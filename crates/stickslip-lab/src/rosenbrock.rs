@@ -4,7 +4,7 @@
 //! Hairer, G. Wanner, *Solving Ordinary Differential Equations II* (1996), Sec. IV.7. Its stages of the variational
 //! equations take the exact Jacobian of the augmented system, so that they are the derivatives of the stages.
 
-use crate::evolution::Rate;
+use crate::law::Rate;
 use crate::system::{Point, System, Unknowns};
 
 const GAMMA: f64 = 0.25;
@@ -175,7 +175,8 @@ impl<const N: usize> Linear<N> {
             let Rate { by_w, by_phi, .. } = base.rates[i];
             diagonal[i] = 1.0 / (1.0 / (GAMMA * h) - system.rate[i] * by_phi);
             row[i] = -system.b[i] / system.a;
-            column[i] = system.rate[i] * by_w;
+            column[i] =
+                system.rate[i] * by_w + system.weakening[i] * system.stiffness * base.faster;
         }
         let mut product = 0.0;
         for i in 0..N {

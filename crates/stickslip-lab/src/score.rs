@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::model::Model;
 use crate::normal::{Linearised, Normal};
-use crate::parameters::Parameter;
+use crate::parameter::Parameter;
 use crate::spread::{independent, neighbours};
 
 /// The gain of a fit by further parameters, in the linear approximation at its minimum.

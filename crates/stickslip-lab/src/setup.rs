@@ -5,12 +5,14 @@ use crate::features::Features;
 use crate::fit::Fit;
 use crate::load::LoadHistory;
 use crate::model::Model;
-use crate::parameters::{Parameter, Parameters, StateParameters};
+use crate::parameter::Parameter;
+use crate::parameters::{Parameters, StateParameters};
 use crate::point::Point;
 use crate::record::Record;
 
 /// The range of `L` beside the distance of samples and the longest piece: a state that adapts within a tenth of a sample
-/// is always steady, and over a tenth of `L` it changes linearly. And that of `a` and `k` about what the curve shows.
+/// is always steady, and over a tenth of `L` it changes linearly. And that of `a` and `k` about what the curve shows, of `Vc`
+/// beside the slip rates, and of `c` about 1.
 const DISTANCES: f64 = 10.0;
 const RANGE: f64 = 100.0;
 
@@ -32,6 +34,7 @@ impl Fit<'_> {
         free.extend((0..states).map(Parameter::B));
         free.extend((0..states).map(Parameter::SlipDistance));
         free.push(Parameter::Stiffness);
+        free.extend(self.law_parameters());
         if self.free_initial_state {
             free.extend((0..states).map(Parameter::InitialState));
             free.push(Parameter::InitialStress);
@@ -43,6 +46,9 @@ impl Fit<'_> {
         if self.step_offset {
             free.push(Parameter::StepOffset);
         }
+        for parameter in &self.freed {
+            parameter.check(&self.laws)?;
+        }
         for &(parameter, low, high) in &self.bounds {
             let floor = if parameter.is_logarithmic() {
                 0.0
@@ -51,7 +57,7 @@ impl Fit<'_> {
             };
             let legal = low >= floor && low <= high && high > floor && low < f64::INFINITY;
             let exact = low < high || (low > floor && low.is_finite());
-            let requirement = "in order, and positive for a, L and k";
+            let requirement = "in order, and positive for a, L, k, Vc and c";
             LabError::check(
                 "lower bound of a parameter",
                 requirement,
@@ -59,14 +65,14 @@ impl Fit<'_> {
                 low,
                 legal && exact,
             )?;
-            parameter.check_state(states)?;
+            parameter.check(&self.laws)?;
         }
         for (position, &(parameter, value)) in self.guesses.iter().enumerate() {
-            parameter.check_state(states)?;
+            parameter.check(&self.laws)?;
             let legal = value.is_finite() && (value > 0.0 || !parameter.is_logarithmic());
             let (what, requirement) = (
                 "guess of a parameter",
-                "finite, and positive for a, L and k",
+                "finite, and positive for a, L, k, Vc and c",
             );
             LabError::check(what, requirement, position, value, legal)?;
         }
@@ -159,6 +165,17 @@ impl Fit<'_> {
         })
     }
 
+    /// The parameters of laws that are fitted: those that are freed, bounded or guessed.
+    fn law_parameters(&self) -> impl Iterator<Item = Parameter> {
+        let all = self.laws.iter().enumerate();
+        let all = all.filter_map(|(i, law)| law.parameter(i));
+        all.filter(|parameter| {
+            self.freed.contains(parameter)
+                || self.bounds.iter().any(|bound| bound.0 == *parameter)
+                || self.guesses.iter().any(|guess| guess.0 == *parameter)
+        })
+    }
+
     /// The bounds of the fitted parameters: those of the caller, else the range in which the curve can resolve them.
     pub(crate) fn ranges(&self, model: &Model<'_>, features: &Features) -> Vec<(f64, f64)> {
         let range = |parameter: &Parameter| {
@@ -176,6 +193,10 @@ impl Fit<'_> {
                 (None, Parameter::Stiffness) => {
                     (features.stiffness / RANGE, features.stiffness * RANGE)
                 }
+                (None, Parameter::AgingVelocity(_)) => {
+                    (features.rates.0 / RANGE, features.rates.1 * RANGE)
+                }
+                (None, Parameter::StressWeight(_)) => (RANGE.recip(), RANGE),
                 (None, Parameter::StepOffset) => {
                     let shortest = model.shortest_phase();
                     (-0.5 * shortest, 0.5 * shortest)

@@ -1,9 +1,11 @@
 //! Starts of a fit, computed from the curve.
 
 use crate::curve::Work;
+use crate::evolution::Evolution;
 use crate::features::Features;
 use crate::model::Model;
-use crate::parameters::{Parameter, Parameters, StateParameters};
+use crate::parameter::Parameter;
+use crate::parameters::{Parameters, StateParameters};
 use crate::point::Point;
 
 /// The local error of curves that are only compared.
@@ -42,10 +44,17 @@ impl Features {
             vec![model.fixed.parameters.stiffness]
         };
         let lengths = self.slip_distances();
+        // By Nagata's law a velocity step shows a/(1 + c).
+        let weights = model.laws.iter().zip(&model.fixed.parameters.states);
+        let weights = weights.map(|(law, state)| match law {
+            Evolution::Nagata => state.stress_weight,
+            _ => 0.0,
+        });
+        let direct_effect = self.direct_effect * (1.0 + weights.sum::<f64>());
         let mut candidates = Vec::new();
         for stiffness in stiffnesses {
             for larger in DIRECT_EFFECTS {
-                let a = larger * self.direct_effect;
+                let a = larger * direct_effect;
                 let b = a - self.a_minus_b;
                 let mut add = |states: Vec<StateParameters>| {
                     candidates.push(Parameters {
@@ -155,7 +164,7 @@ fn best(
             start.set(parameter, value);
         }
         // Near the critical stiffness curves oscillate, and below it they are records of no experiment.
-        if start.parameters.critical_stiffness() >= start.parameters.stiffness {
+        if start.parameters.critical_stiffness_by(model.laws) >= start.parameters.stiffness {
             continue;
         }
         // Candidates that differ in guessed parameters alone are the same start.

@@ -3,15 +3,18 @@
 //! The unknowns are `m = mu - mu0` and `phi_i = ln(V0 theta_i/L_i)`, with `w = ln(V/V0) = (m - sum b_i phi_i)/a`:
 //!
 //! ```text
-//! m' = k V0 (V_lp/V0 - exp(w)),   phi_i' = (V0/L_i) G_i(phi_i, w)
+//! m' = k V0 (V_lp/V0 - exp(w)),   phi_i' = (V0/L_i) G_i(phi_i, w) - (c_i/b_i) m'
 //! ```
+//!
+//! with `c_i` of Nagata's law, 0 of others.
 
-use crate::evolution::{Curvature, Law, Rate};
+use crate::law::{Curvature, Law, Rate};
 
 /// The unknowns `m`, `phi_1`, .. and in the columns from 1 on their derivatives in the parameters.
 pub(crate) type Unknowns<const N: usize, const W: usize> = [[f64; W]; N];
 
-/// The columns of the derivatives: `a`, `b_i`, `ln L_i`, `ln k`, the initial `phi_i` with `i` from 1 on, and the initial `m`.
+/// The columns of the derivatives: `a`, `b_i`, `ln L_i`, `ln k`, the initial `phi_i` with `i` from 1 on, the initial `m`, and the
+/// logarithm of a parameter of the law of `phi_i`.
 pub(crate) mod column {
     pub(crate) const A: usize = 1;
     pub(crate) const fn b(i: usize) -> usize {
@@ -29,6 +32,9 @@ pub(crate) mod column {
     pub(crate) const fn initial_stress<const N: usize>() -> usize {
         3 * N
     }
+    pub(crate) const fn law<const N: usize>(i: usize) -> usize {
+        3 * N + i
+    }
 }
 
 /// The model with `N - 1` states, at one velocity of the load point.
@@ -40,6 +46,8 @@ pub(crate) struct System<const N: usize> {
     pub(crate) rate: [f64; N],
     /// The laws of the states, from 0 on.
     pub(crate) laws: Vec<Law>,
+    /// `c_i/b_i` of Nagata's law, from 1 on.
+    pub(crate) weakening: [f64; N],
     /// `k V0` [1/s].
     pub(crate) stiffness: f64,
     /// `V_lp/V0`.
@@ -105,6 +113,7 @@ impl<const N: usize> System<N> {
                 value,
                 by_w,
                 by_phi,
+                by_parameter,
             } = at.rates[i];
             for c in 1..W {
                 f[i][c] = self.rate[i] * (by_w * at.w[c] + by_phi * y[i][c]);
@@ -113,8 +122,31 @@ impl<const N: usize> System<N> {
             if W > 1 {
                 f[i][column::slip_distance::<N>(i)] -= f[i][0];
             }
+            if W > column::law::<N>(1) {
+                f[i][column::law::<N>(i)] += self.rate[i] * by_parameter;
+            }
+            let stress = f[0];
+            self.weaken(i, &mut f[i], &stress);
         }
         f
+    }
+
+    /// Subtracts the stress rate `m'` and its derivatives, times `c_i/b_i`, from the row of a state.
+    #[inline]
+    fn weaken<const W: usize>(&self, i: usize, row: &mut [f64; W], stress: &[f64; W]) {
+        let weight = self.weakening[i];
+        if weight == 0.0 {
+            return;
+        }
+        for c in 0..W {
+            row[c] -= weight * stress[c];
+        }
+        if W > 1 {
+            row[column::b(i)] += weight / self.b[i] * stress[0];
+        }
+        if W > column::law::<N>(1) {
+            row[column::law::<N>(i)] -= weight * stress[0];
+        }
     }
 
     /// The largest rate of `w` and of the states [1/s].
@@ -154,11 +186,17 @@ impl<const N: usize> System<N> {
         for i in 1..N {
             second[column::b(i)] = -moved[i] / self.a;
         }
+        // The column 0 has been solved for: that of `stress` is only read.
+        let mut stress = [0.0; W];
+        stress[0] = slowing * ln_rate;
         for c in 1..W {
-            right[0][c] += slowing * (ln_rate * base.w[c] + second[c]);
+            stress[c] = slowing * (ln_rate * base.w[c] + second[c]);
         }
         if W > column::stiffness::<N>() {
-            right[0][column::stiffness::<N>()] += slowing * ln_rate;
+            stress[column::stiffness::<N>()] += slowing * ln_rate;
+        }
+        for c in 1..W {
+            right[0][c] += stress[c];
         }
         for i in 1..N {
             let (first, bend) = (&base.rates[i], &curvature[i]);
@@ -170,6 +208,13 @@ impl<const N: usize> System<N> {
             }
             right[i][column::slip_distance::<N>(i)] -=
                 self.rate[i] * (first.by_w * ln_rate + first.by_phi * moved[i]);
+            if W > column::law::<N>(1) {
+                right[i][column::law::<N>(i)] += self.rate[i]
+                    * (bend.by_parameter_w * ln_rate + bend.by_parameter_phi * moved[i]);
+            }
+            let solved = right[i][0];
+            self.weaken(i, &mut right[i], &stress);
+            right[i][0] = solved;
         }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::fitted::Fitted;
 use crate::loss::Loss;
 use crate::model::Trend;
-use crate::parameters::Parameter;
+use crate::parameter::Parameter;
 use crate::rounded::rounded;
 
 impl fmt::Display for Fitted {
@@ -28,6 +28,7 @@ impl fmt::Display for Fitted {
                 Parameter::Trend if self.trend == Some(Trend::Time) => " 1/s",
                 Parameter::Trend => " 1/m",
                 Parameter::StepOffset => " s",
+                Parameter::AgingVelocity(_) => " m/s",
                 _ => "",
             };
             let row = rounded(estimate.value, estimate.standard_error);

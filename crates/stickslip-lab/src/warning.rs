@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::parameters::Parameter;
+use crate::parameter::Parameter;
 use crate::rounded::rounded;
 
 /// A reason to distrust a fitted parameter.

@@ -237,6 +237,7 @@ def fit(
     loss: str = "squares",
     step_offset: bool = False,
     V0: float | None = None,
+    free: Sequence[str] = [],
     fixed: Mapping[str, float] = {},
     bounds: Mapping[str, tuple[float, float]] = {},
     guess: Mapping[str, float] = {},

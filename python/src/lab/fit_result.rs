@@ -3,7 +3,7 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use stickslip::lab::{Errors, Fitted, Parameter, Record};
+use stickslip::lab::{Errors, Evolution, Fitted, Parameter, Record};
 
 use crate::plain::{Reduced, fields, helper, reduced};
 use crate::view::view;
@@ -103,13 +103,15 @@ impl FitResult {
 
 /// The parameters that the model has, by name.
 fn values(fitted: &Fitted) -> Vec<(String, f64)> {
-    let states = 0..fitted.parameters.states.len();
-    let of_states = states.flat_map(|i| {
-        [
+    let of_states = fitted.laws.iter().enumerate().flat_map(|(i, law)| {
+        let law = law.parse::<Evolution<'static>>().ok();
+        let own = law.and_then(|law| law.parameter(i));
+        let all = [
             Parameter::B(i),
             Parameter::SlipDistance(i),
             Parameter::InitialState(i),
-        ]
+        ];
+        all.into_iter().chain(own)
     });
     let others = [
         Parameter::Stiffness,

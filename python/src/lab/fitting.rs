@@ -22,7 +22,7 @@ use crate::exit::Call;
 ///     displacement: measured displacement of the load point [m], one per time, in the place of load.
 ///     resolution: of the displacement gauge [m]: the velocities between samples that meet all displacements to within
 ///         it; by default the least-squares polygon with as few corners as the noise of the displacement defends.
-///     law: "aging" or "slip", or a list with one per state.
+///     law: "aging", "slip", "perrin-rice-zheng", "kato-tullis" or "nagata", or a list with one per state.
 ///     states: 1 or 2.
 ///     stiffness: k = K/normal stress [1/m]; fitted if it is None.
 ///     window: (from, to) [s]; it begins while the load point moves.
@@ -32,8 +32,10 @@ use crate::exit::Call;
 ///     loss: of residuals: "squares", or "huber", which bounds the influence of spikes.
 ///     step_offset: whether the time [s] by which all velocity steps are later than load or displacement say is fitted, too.
 ///     V0: reference velocity [m/s]; by default the first velocity.
-///     fixed: values of parameters by name: "a", "b1", "L1", "b2", "L2", "k", "mu0", "trend", "step_offset"; "b" and "L" are the
-///         first.
+///     free: names of parameters of laws that are fitted, too: "Vc1", "Vc2" of kato-tullis, 1e-8 m/s else, and "c1", "c2" of
+///         nagata, 2 else.
+///     fixed: values of parameters by name: "a", "b1", "L1", "b2", "L2", "k", "mu0", "trend", "step_offset", "Vc1", "c1"; "b",
+///         "L", "Vc" and "c" are the first.
 ///     bounds: pairs (low, high) of parameters by name.
 ///     guess: values of parameters by name to start from; the other starts are computed from the curve.
 ///
@@ -45,9 +47,9 @@ use crate::exit::Call;
 #[pyfunction]
 #[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None, law=Names::One("aging".to_owned()),
                     states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=false,
-                    loss="squares", step_offset=false, V0=None,
+                    loss="squares", step_offset=false, V0=None, free=vec![],
                     fixed=BTreeMap::new(), bounds=BTreeMap::new(), guess=BTreeMap::new()),
-       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, loss='squares', step_offset=False, V0=None, fixed={}, bounds={}, guess={})")]
+       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, loss='squares', step_offset=False, V0=None, free=[], fixed={}, bounds={}, guess={})")]
 #[expect(non_snake_case, reason = "names of the field")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn fit(
@@ -67,6 +69,7 @@ pub(crate) fn fit(
     loss: &str,
     step_offset: bool,
     V0: Option<f64>,
+    free: Vec<String>,
     fixed: BTreeMap<String, f64>,
     bounds: BTreeMap<String, (f64, f64)>,
     guess: BTreeMap<String, f64>,
@@ -110,6 +113,9 @@ pub(crate) fn fit(
     }
     if let Some(velocity) = V0 {
         fit = fit.with_reference_velocity(velocity);
+    }
+    for name in &free {
+        fit = fit.with_free(refused(py, name.parse::<Parameter>())?);
     }
     let mut parameter = |what: &'static str, name: &str| {
         let parameter = refused(py, name.parse::<Parameter>())?;

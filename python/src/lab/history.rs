@@ -26,10 +26,10 @@ impl Names {
             Self::One(name) => vec![name; states],
             Self::Each(names) => names,
         };
-        let named = |name: &String| match name.as_str() {
-            "aging" => Ok(Evolution::Aging),
-            "slip" => Ok(Evolution::Slip),
-            _ => Err(argument("law", "\"aging\" or \"slip\"", name)),
+        let known = "\"aging\", \"slip\", \"perrin-rice-zheng\", \"kato-tullis\" or \"nagata\"";
+        let named = |name: &String| {
+            let law = name.parse::<Evolution<'static>>();
+            law.map_err(|_| argument("law", known, name))
         };
         names.iter().map(named).collect()
     }

@@ -73,12 +73,15 @@ pub struct Arguments {
     /// Fit the time [s] by which all velocity steps are later than --steps or the displacements say, too
     #[arg(long)]
     pub step_offset: bool,
+    /// Fit a parameter of a state law, too: Vc1 or Vc2 of kato-tullis, c1 or c2 of nagata; repeatable
+    #[arg(long, value_name = "NAME", value_parser = parameter)]
+    pub free: Vec<Parameter>,
     /// Fix a parameter, such as a=0.01; repeatable. Parameters are a, b1, b2, L1, L2, k, mu0, trend, step_offset,
-    /// initial_stress, initial_state1 and initial_state2; b and L are those of the first state
+    /// Vc1, Vc2, c1, c2, initial_stress, initial_state1 and initial_state2; b, L, Vc and c are those of the first state
     #[arg(long, value_name = "NAME=VALUE", value_parser = fixed)]
     pub fix: Vec<(Parameter, f64)>,
     /// Keep a parameter between two values, such as L1=1e-6:1e-4; repeatable. Parameters are a, b1, b2, L1, L2, k, mu0,
-    /// trend, step_offset, initial_stress, initial_state1 and initial_state2
+    /// trend, step_offset, Vc1, Vc2, c1, c2, initial_stress, initial_state1 and initial_state2
     #[arg(long, value_name = "NAME=LOW:HIGH", value_parser = bounds)]
     pub bounds: Vec<(Parameter, f64, f64)>,
     /// Start from a value of a parameter, such as L1=5e-5; the other starts are computed from the curve; repeatable
@@ -101,6 +104,12 @@ pub enum Law {
     /// Ruina's law
     #[value(alias = "ruina")]
     Slip,
+    /// The law of Perrin, Rice and Zheng: aging with a square
+    PerrinRiceZheng,
+    /// The composite law of Kato and Tullis: aging below Vc, 1e-8 m/s unless it is fitted or fixed, slip above
+    KatoTullis,
+    /// Nagata's law: aging weakened by the rate of stress, with c = 2 unless it is fitted or fixed
+    Nagata,
 }
 
 impl Law {
@@ -109,6 +118,9 @@ impl Law {
         match self {
             Self::Aging => Evolution::Aging,
             Self::Slip => Evolution::Slip,
+            Self::PerrinRiceZheng => Evolution::PerrinRiceZheng,
+            Self::KatoTullis => Evolution::KatoTullis,
+            Self::Nagata => Evolution::Nagata,
         }
     }
 }
@@ -185,16 +197,21 @@ fn window(text: &str) -> Result<(f64, f64), String> {
 
 fn named(text: &str) -> Result<(Parameter, &str), String> {
     let (name, value) = text.split_once('=').ok_or("must be NAME=VALUE")?;
-    let parameter = name
-        .parse::<Parameter>()
-        .map_err(|error| error.to_string())?;
-    Ok((parameter, value))
+    Ok((parameter(name)?, value))
 }
 
-/// A value of a parameter, positive for a, L and k.
+fn parameter(name: &str) -> Result<Parameter, String> {
+    let parameter = name.parse::<Parameter>();
+    parameter.map_err(|error| error.to_string())
+}
+
+/// A value of a parameter, positive for a, L, k, Vc and c.
 fn of_sign(parameter: Parameter, value: f64) -> Result<f64, String> {
-    let positive = [Parameter::A, Parameter::Stiffness].contains(&parameter)
-        || matches!(parameter, Parameter::SlipDistance(_));
+    use Parameter::{A, AgingVelocity, SlipDistance, Stiffness, StressWeight};
+    let positive = matches!(
+        parameter,
+        A | Stiffness | SlipDistance(_) | AgingVelocity(_) | StressWeight(_)
+    );
     if positive && value <= 0.0 {
         return Err(format!("{parameter} must be positive"));
     }

@@ -79,6 +79,9 @@ impl Arguments {
     /// The fit.
     pub(super) fn fit(&self, laws: &[Evolution<'static>]) -> Fit<'static> {
         let mut fit = Fit::new(laws).with_loss(self.loss.loss());
+        for &parameter in &self.free {
+            fit = fit.with_free(parameter);
+        }
         for &(parameter, low, high) in &self.bounds {
             fit = fit.with_bounds(parameter, low, high);
         }
