@@ -1,5 +1,6 @@
 //! Friction over time: the solution of the model at the samples.
 
+use crate::course::Course;
 use crate::error::LabError;
 use crate::evolution::Evolution;
 use crate::law::Law;
@@ -36,7 +37,7 @@ pub(crate) fn curve<const N: usize, const W: usize>(
     load: &LoadHistory,
     times: &[f64],
     tolerance: f64,
-    work: &mut Work,
+    course: &mut Course<'_>,
 ) -> Result<Vec<[f64; W]>, LabError> {
     let Some((&first, &last)) = times.first().zip(times.last()) else {
         return Ok(Vec::new());
@@ -46,7 +47,7 @@ pub(crate) fn curve<const N: usize, const W: usize>(
     let mut system = system(laws, parameters);
     system.load = load.velocity_before(first) / v0;
     let mut y = start::<N, W>(&system, point)?;
-    work.integrations += 1;
+    course.begin_curve()?;
     let mut rows = Vec::with_capacity(times.len());
     let ends = load
         .changes(first, last)
@@ -64,7 +65,7 @@ pub(crate) fn curve<const N: usize, const W: usize>(
             let step = system.step(&y, h);
             let error = step.error / tolerance;
             steps += 1;
-            work.steps += 1;
+            course.count_step()?;
             let factor = if error.is_finite() {
                 (SAFETY / error.powf(0.25)).clamp(SHRINK, GROW)
             } else {

@@ -2,26 +2,26 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::curve::Work;
+use crate::course::Course;
 use crate::error::LabError;
-use crate::model::Model;
 use crate::normal::Linearised;
 use crate::parameter::Parameter;
+use crate::part::Part;
 
 /// The increment of a parameter in differences, of the logarithm of a positive one: the error is a millionth.
 const DIFFERENCE: f64 = 1e-3;
 
-impl Model<'_> {
+impl Part<'_> {
     /// Central differences for all parameters but the linear ones.
     pub(crate) fn by_differences(
         &self,
         values: &[f64],
         tolerance: f64,
-        work: &mut Work,
+        course: &mut Course<'_>,
     ) -> Result<Linearised, LabError> {
         let roots = &self.roots;
         let point = self.point(values);
-        let friction = self.friction(&point, tolerance, work)?;
+        let friction = self.friction(&point, tolerance, course)?;
         let residual = DVector::from_fn(friction.len(), |n, _| {
             roots[n] * (friction[n] - self.record.friction()[n])
         });
@@ -35,7 +35,7 @@ impl Model<'_> {
                     }
                 }
                 Parameter::StepOffset => {
-                    let column = self.by_offset(&point, tolerance, work)?;
+                    let column = self.by_offset(&point, tolerance, course)?;
                     for (n, root) in roots.iter().enumerate() {
                         jacobian[(n, k)] = root * column[n];
                     }
@@ -49,7 +49,7 @@ impl Model<'_> {
                     let mut at = |by: f64| {
                         let mut values = values.to_vec();
                         values[k] += by;
-                        self.change(&self.point(&values), tolerance, work)
+                        self.change(&self.point(&values), tolerance, course)
                     };
                     let h = DIFFERENCE * unit;
                     let (more, less) = (at(h)?, at(-h)?);

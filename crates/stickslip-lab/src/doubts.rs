@@ -3,9 +3,9 @@
 use crate::end::End;
 use crate::fitted::Fitted;
 use crate::levels;
-use crate::model::Model;
 use crate::parameter::Parameter;
 use crate::score::Score;
+use crate::search::Search;
 use crate::warning::Warning;
 
 /// The difference of criteria (AIC) that is evidence, by a factor of `exp(5)`. Source: K. P. Burnham, D. R. Anderson,
@@ -15,16 +15,29 @@ pub(crate) const EVIDENCE: f64 = 10.0;
 /// The relative offset of a flat valley: a tenth of a standard error.
 const VALLEY: f64 = 0.1;
 
-/// The warnings of a fit.
+/// The warnings of a fit for one of its records.
 pub(crate) fn warnings(
     fitted: &Fitted,
-    model: &Model<'_>,
+    search: &Search<'_>,
     values: &[f64],
-    bounds: &[(f64, f64)],
     end: &End,
+    number: usize,
 ) -> Vec<Warning> {
+    let (model, part) = (search.model, &search.model.parts[number]);
+    let bounds: Vec<_> = part
+        .places
+        .iter()
+        .map(|&place| search.bounds[place])
+        .collect();
+    let (statistics, end) = (&end.spread.parts[number], &end.parts[number]);
     let parameters = &fitted.parameters;
     let mut warnings = Vec::new();
+    if fitted.interrupted {
+        warnings.push(Warning::Interrupted {
+            steps: fitted.steps,
+            offset: fitted.offset,
+        });
+    }
     for (k, estimate) in fitted.estimates.iter().enumerate() {
         let parameter = estimate.parameter;
         let scale = match parameter {
@@ -75,14 +88,14 @@ pub(crate) fn warnings(
             slip_distance: least,
         });
     }
-    let times = model.record.times();
+    let times = part.record.times();
     let (first, last) = (times[0], times[times.len() - 1]);
     let mut ends: Vec<f64> = vec![first];
-    ends.extend(model.load.changes(first, last).map(|(time, _)| time));
+    ends.extend(part.load.changes(first, last).map(|(time, _)| time));
     ends.push(last);
     let longest = ends[1..]
         .windows(2)
-        .map(|pair| model.load.displacement(pair[1]) - model.load.displacement(pair[0]));
+        .map(|pair| part.load.displacement(pair[1]) - part.load.displacement(pair[0]));
     let longest = longest.fold(0.0, f64::max);
     if longest < 3.0 * most {
         warnings.push(Warning::ShortStep {
@@ -90,17 +103,17 @@ pub(crate) fn warnings(
             slip_distance: most,
         });
     }
-    if fitted.offset > VALLEY {
+    if fitted.offset > VALLEY && !fitted.interrupted {
         warnings.push(Warning::FlatValley {
             offset: fitted.offset,
         });
     }
     // Corners of a measured history are uncertain.
     let (from, to) = (
-        model.record.times()[0],
-        model.record.times()[fitted.residuals.len() - 1],
+        part.record.times()[0],
+        part.record.times()[fitted.residuals.len() - 1],
     );
-    let uncertain = 2.0 * model.load.corner_error(from, to);
+    let uncertain = 2.0 * part.load.corner_error(from, to);
     let step_offset = end.tests.step_offset.as_ref();
     let far = |score: &&Score| score.evidence > EVIDENCE && score.estimates[0].0.abs() > uncertain;
     if let Some(score) = step_offset.filter(far) {
@@ -120,7 +133,7 @@ pub(crate) fn warnings(
             aic: score.evidence,
         });
     }
-    if end.spread.correlated && !end.exact {
+    if statistics.correlated && !end.exact {
         warnings.push(Warning::CorrelatedResiduals {
             correlation: fitted.lag_one,
             samples: fitted.effective_samples,
@@ -135,7 +148,7 @@ pub(crate) fn warnings(
             largest: largest.unwrap_or(first.residual),
         });
     }
-    let critical = parameters.critical_stiffness_by(model.laws);
+    let critical = parameters.critical_stiffness_by(part.laws);
     if parameters.stiffness < critical {
         warnings.push(Warning::BelowCritical {
             stiffness: parameters.stiffness,

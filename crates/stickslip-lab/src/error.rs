@@ -49,6 +49,23 @@ pub enum LabError {
         /// The number of parameters.
         parameters: usize,
     },
+    /// A fit without a record.
+    #[error("no record to fit: give at least one")]
+    NoRecord,
+    /// One of several records cannot be fitted.
+    #[error("record {number}: {cause}")]
+    Record {
+        /// Its number, from 1 on.
+        number: usize,
+        /// The reason.
+        cause: Box<LabError>,
+    },
+    /// A parameter that all records share was fixed for one of them.
+    #[error("all records share {parameter}: fix it for the fit, not for one record")]
+    Shared {
+        /// The parameter.
+        parameter: Parameter,
+    },
     /// The load point keeps its velocity over all samples.
     #[error(
         "the load point has the velocity {} m/s from the first to the last sample: the window must contain a velocity step or a hold",
@@ -109,6 +126,9 @@ pub enum LabError {
         /// The number of starts.
         starts: usize,
     },
+    /// The fit was interrupted before it had any parameters.
+    #[error("the fit was interrupted before it had a curve: it has no parameters yet")]
+    Interrupted,
     /// The fit did not converge.
     #[error(
         "the fit is {} standard errors away from a minimum after {steps} steps: give a guess with a larger L",

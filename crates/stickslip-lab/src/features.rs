@@ -101,6 +101,30 @@ impl Features {
     }
 }
 
+impl Features {
+    /// What several curves show of parameters that they share; their stiffness is that of the first. A soft machine shows less
+    /// of the direct effect than a stiff one, and a curve of one velocity shows no `a - b`.
+    pub(crate) fn of_all(each: &[Self]) -> Self {
+        let largest = |of: fn(&Self) -> f64| each.iter().map(of).fold(0.0, f64::max);
+        let least = |of: fn(&Self) -> f64| each.iter().map(of).fold(f64::INFINITY, f64::min);
+        let slopes = each.iter().map(|features| features.a_minus_b);
+        let slopes: Vec<f64> = slopes.filter(|slope| *slope != 0.0).collect();
+        Self {
+            a_minus_b: slopes.iter().sum::<f64>() / slopes.len().max(1) as f64,
+            direct_effect: largest(|features| features.direct_effect),
+            stiffness: each.first().map_or(1.0, |features| features.stiffness),
+            distances: (
+                least(|features| features.distances.0),
+                largest(|features| features.distances.1),
+            ),
+            rates: (
+                least(|features| features.rates.0),
+                largest(|features| features.rates.1),
+            ),
+        }
+    }
+}
+
 impl Curve<'_> {
     /// The mean over the last quarter of the time of a piece, of its last sample at least.
     fn level(&self, piece: &Piece, of: &[f64]) -> f64 {

@@ -1,19 +1,21 @@
-//! The fit of a record.
+//! The fit of a record, or of several.
 
+use crate::candidates::Shown;
+use crate::course::{Course, Interrupt};
 use crate::error::LabError;
 use crate::evolution::Evolution;
-use crate::features::Features;
+use crate::experiment::Experiment;
 use crate::fitted::Fitted;
+use crate::joint::JointFit;
 use crate::load::LoadHistory;
 use crate::loss::Loss;
-use crate::model::Trend;
 use crate::parameter::Parameter;
 use crate::parameters::Parameters;
-use crate::point::Point;
 use crate::record::Record;
 use crate::search::Search;
+use crate::trend::Trend;
 
-/// A least-squares fit of friction to the record of an experiment.
+/// A least-squares fit of friction to the record of an experiment, or to several at once.
 ///
 /// Fitted are `a`, `b` and `L` of each state, `mu0`, the stiffness unless it is fixed, and on demand a trend, the
 /// initial states, and parameters of state laws. The starts are computed from the curve.
@@ -50,6 +52,7 @@ pub struct Fit<'a> {
     pub(crate) guesses: Vec<(Parameter, f64)>,
     /// Parameters of laws that are fitted.
     pub(crate) freed: Vec<Parameter>,
+    pub(crate) interrupt: Option<Interrupt<'a>>,
 }
 
 impl<'a> Fit<'a> {
@@ -66,6 +69,7 @@ impl<'a> Fit<'a> {
             guess: None,
             guesses: Vec::new(),
             freed: Vec::new(),
+            interrupt: None,
         }
     }
 
@@ -170,13 +174,39 @@ impl<'a> Fit<'a> {
         self
     }
 
+    /// Ends the fit where it is once a function is true: it is called every few microseconds, inside curves, too. The result is
+    /// that of the best parameters so far, and [says so](Fitted::interrupted).
+    ///
+    /// ```
+    /// use std::sync::atomic::{AtomicBool, Ordering};
+    /// use stickslip_lab::{Evolution, Fit};
+    ///
+    /// let pressed = AtomicBool::new(false); // set by a signal or by another thread
+    /// let asked = || pressed.load(Ordering::Relaxed);
+    /// let fit = Fit::new(&[Evolution::Aging]).with_interrupt(&asked);
+    /// ```
+    #[must_use]
+    #[doc(alias("cancel", "stop", "Ctrl-C"))]
+    pub fn with_interrupt(mut self, interrupt: &'a (dyn Fn() -> bool + Sync)) -> Self {
+        self.interrupt = Some(Interrupt(interrupt));
+        self
+    }
+
     /// Checks the settings, the record and the history, without a fit.
     ///
     /// # Errors
     /// [`LabError::States`], [`LabError::Value`], [`LabError::TooFewSamples`] and [`LabError::NoVelocityStep`] as of
     /// [`run`](Self::run).
     pub fn validate(&self, record: &Record, load: &LoadHistory) -> Result<(), LabError> {
-        self.model(record, load).map(|_| ())
+        self.validate_joint(&[Experiment::new(record, load)])
+    }
+
+    /// Checks the settings, the records and their histories, without a fit.
+    ///
+    /// # Errors
+    /// Those of [`validate`](Self::validate), in [`LabError::Record`] with the number of one of several records.
+    pub fn validate_joint(&self, experiments: &[Experiment<'_>]) -> Result<(), LabError> {
+        self.model(experiments).map(|_| ())
     }
 
     /// Fits the parameters.
@@ -187,29 +217,60 @@ impl<'a> Fit<'a> {
     /// # Errors
     /// [`LabError::States`], [`LabError::Value`] and [`LabError::TooFewSamples`] for wrong input,
     /// [`LabError::NoVelocityStep`] for a load point that keeps its velocity, [`LabError::NoStart`] if no start has a
-    /// stable curve, [`LabError::Unstable`] if a guess has none, and [`LabError::NotConverged`]. Parameters that the
-    /// data do not determine are no error: see [`Fitted::warnings`].
+    /// stable curve, [`LabError::Unstable`] if a guess has none, [`LabError::NotConverged`], and
+    /// [`LabError::Interrupted`] before the first curve. Parameters that the data do not determine are no error: see
+    /// [`Fitted::warnings`].
     pub fn run(&self, record: &Record, load: &LoadHistory) -> Result<Fitted, LabError> {
-        let model = self.model(record, load)?;
-        let v0 = model.fixed.parameters.reference_velocity;
-        let known = model.known(Parameter::Stiffness);
-        let features = Features::new(record, load, v0, &model.trend, known);
-        let bounds = self.ranges(&model, &features);
-        let mut search = Search::new(&model, &bounds, features.direct_effect);
-        let mut minimum = match &self.guess {
-            Some(guess) => {
-                let mut start = Point::new(guess.clone());
-                for &(parameter, value) in model.guesses {
-                    start.set(parameter, value);
-                }
-                search.from(model.values(&start))?
-            }
-            None => search.among(&features)?,
+        let mut joint = self.run_joint(&[Experiment::new(record, load)])?;
+        joint.records.pop().ok_or(LabError::NoRecord)
+    }
+
+    /// Fits several records at once: they share `a`, `b` and `L` of each state and the parameters of state laws. Each has its own
+    /// stiffness, `mu0`, trend, step offset and beginning. Bounds and guesses of these are for each record.
+    ///
+    /// A record counts by its noise, which is estimated from its residuals.
+    ///
+    /// ```
+    /// use stickslip_lab::{Evolution, Experiment, Fit, LoadHistory, Parameters, Record};
+    /// # use stickslip_friction::DieterichRuina;
+    /// # let friction = DieterichRuina {
+    /// #     a: 0.008, b: 0.012, reference_friction: 0.6, reference_velocity: 1e-6, slip_distance: 1.5e-5,
+    /// # };
+    /// let load = LoadHistory::velocity_steps(&[1e-6, 1e-5], 3e-4)?;
+    /// let times = load.samples(200);
+    /// // The same rock on two machines.
+    /// let on = |stiffness: f64| {
+    ///     let machine = Parameters::one_state(&friction, stiffness);
+    ///     Record::new(times.clone(), machine.curve(&[Evolution::Aging], &load, &times)?)
+    /// };
+    /// let (soft, stiff) = (on(1e3)?, on(3e3)?);
+    /// let joint = Fit::new(&[Evolution::Aging])
+    ///     .run_joint(&[Experiment::new(&soft, &load), Experiment::new(&stiff, &load)])?;
+    /// assert!((joint.records[1].parameters.stiffness / 3e3 - 1.0).abs() < 1e-4);
+    /// println!("{joint}");
+    /// # Ok::<(), stickslip_lab::LabError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`run`](Self::run), in [`LabError::Record`] with the number of one of several records, [`LabError::NoRecord`],
+    /// and [`LabError::Shared`] for a shared parameter that is fixed for one record.
+    pub fn run_joint(&self, experiments: &[Experiment<'_>]) -> Result<JointFit, LabError> {
+        let model = self.model(experiments)?;
+        let shown = Shown::new(&model);
+        let bounds = self.ranges(&model, &shown.all, &shown.each);
+        let course = Course::new(self.interrupt);
+        let mut search = Search::new(&model, &bounds, shown.all.direct_effect, course);
+        let minimum = match &self.guess {
+            Some(guess) => search.from(model.guessed(guess))?,
+            None => search.among(&shown)?,
         };
-        if self.loss == Loss::Huber {
-            minimum = search.robust(minimum)?;
-        }
+        let (minimum, noise) = search.reweighted(minimum, self.loss)?;
+        let model = model.over_noise(&noise);
+        let mut search = Search {
+            model: &model,
+            ..search
+        };
         let end = search.end(&minimum, self.loss)?;
-        Ok(Fitted::new(&search, self, minimum, end))
+        Ok(JointFit::new(&search, self, &minimum, &end))
     }
 }

@@ -8,11 +8,13 @@ use crate::end::End;
 use crate::fit::Fit;
 use crate::least_squares::Minimum;
 use crate::loss::Loss;
-use crate::model::Trend;
+use crate::model::Model;
 use crate::parameter::Parameter;
 use crate::parameters::Parameters;
+use crate::point::Point;
 use crate::search::Search;
 use crate::spikes::Spike;
+use crate::trend::Trend;
 use crate::warning::Warning;
 
 /// A fitted parameter.
@@ -91,77 +93,71 @@ pub struct Fitted {
     /// The relative offset: the remaining distance to the minimum over the radius of the confidence region; 0 where a
     /// further step would change the curve by less than the error of its integration, as for data without noise.
     pub offset: f64,
+    /// Whether the fit was [interrupted](crate::Fit::with_interrupt): the parameters are the best so far, which are no minimum.
+    pub interrupted: bool,
     /// The number of curves and of their steps.
     pub work: Work,
 }
 
 impl Fitted {
-    pub(crate) fn new(search: &Search<'_>, fit: &Fit<'_>, minimum: Minimum, end: End) -> Self {
-        let model = search.model;
-        let point = model.point(&minimum.parameters);
-        let samples = model.record.weighted() as f64;
-        // Of the values, not of their logarithms.
-        let unit = |k: usize| {
-            let parameter: Parameter = model.free[k];
-            if parameter.is_logarithmic() {
-                point.value(parameter)
-            } else {
-                1.0
-            }
-        };
-        let count = model.free.len();
-        let covariance = DMatrix::from_fn(count, count, |i, j| {
-            unit(i) * unit(j) * end.spread.covariance[(i, j)]
-        });
-        let estimates = (0..count).map(|k| Estimate {
-            parameter: model.free[k],
-            value: point.value(model.free[k]),
-            standard_error: covariance[(k, k)].sqrt(),
-        });
-        let correlation = DMatrix::from_fn(count, count, |i, j| {
-            covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
-        });
-        let difference = DVector::from_fn(count, |k, _| match model.free[k] {
-            Parameter::A => point.parameters.a,
-            Parameter::B(_) => -1.0,
-            _ => 0.0,
-        });
-        let errors = if end.spread.correlated {
+    /// The result for one of the records.
+    pub(crate) fn new(
+        search: &Search<'_>,
+        fit: &Fit<'_>,
+        minimum: &Minimum,
+        end: &End,
+        number: usize,
+    ) -> Self {
+        let (model, part) = (search.model, &search.model.parts[number]);
+        let values = model.of_part(number, &minimum.parameters);
+        let point = part.point(&values);
+        let covariance = covariance(model, minimum, end);
+        let places = &part.places;
+        let estimates = part
+            .free
+            .iter()
+            .zip(places)
+            .map(|(&parameter, &place)| Estimate {
+                parameter,
+                value: point.value(parameter),
+                standard_error: covariance[(place, place)].sqrt(),
+            });
+        let of_part = covariance.select_rows(places).select_columns(places);
+        let (statistics, own) = (&end.spread.parts[number], &end.parts[number]);
+        let errors = if statistics.correlated {
             Errors::Correlated
         } else {
             Errors::Independent
         };
-        let data = model.record.friction();
+        let data = part.record.friction();
         let mut fitted = Self {
-            a_minus_b: (
-                point.parameters.a_minus_b(),
-                end.spread.variance(&difference).sqrt(),
-            ),
+            a_minus_b: a_minus_b(search, &point, end),
             estimates: estimates.collect(),
-            correlation,
-            rms: (end.squares / model.record.weights().iter().sum::<f64>()).sqrt(),
-            deviation: end.spread.deviation,
-            aic: samples * (end.losses / samples).ln() + 2.0 * (count as f64 + 1.0),
+            correlation: correlation(&of_part),
+            rms: (own.squares / part.record.weights().iter().sum::<f64>()).sqrt(),
+            deviation: part.noise * statistics.deviation,
+            aic: end.aic,
             warnings: Vec::new(),
-            friction: (data.iter().zip(&end.residuals))
+            friction: (data.iter().zip(&own.residuals))
                 .map(|(mu, residual)| mu - residual)
                 .collect(),
-            laws: model.laws.iter().map(|law| law.name()).collect(),
+            laws: part.laws.iter().map(|law| law.name()).collect(),
             trend: fit.trend,
             loss: fit.loss,
             errors,
-            lag_one: end.spread.correlation,
-            effective_samples: end.spread.samples,
-            spikes: end.spikes.clone(),
+            lag_one: statistics.correlation,
+            effective_samples: statistics.samples,
+            spikes: own.spikes.clone(),
             steps: search.steps,
             offset: minimum.offset,
-            work: search.work,
+            interrupted: search.course.is_interrupted(),
+            work: search.course.work,
             step_offset: point.step_offset,
             initial_stress: point.initial_stress,
             parameters: point.parameters,
-            residuals: end.residuals.clone(),
+            residuals: own.residuals.clone(),
         };
-        fitted.warnings = warnings(&fitted, model, &minimum.parameters, search.bounds, &end);
+        fitted.warnings = warnings(&fitted, search, &values, end, number);
         fitted
     }
 
@@ -185,4 +181,42 @@ impl Fitted {
             .find(|found| found.parameter == parameter);
         found.map_or(0.0, |estimate| estimate.standard_error)
     }
+}
+
+/// The covariance of all fitted values, not of their logarithms.
+pub(crate) fn covariance(model: &Model<'_>, minimum: &Minimum, end: &End) -> DMatrix<f64> {
+    let units: Vec<f64> = (model.free.iter().zip(&minimum.parameters))
+        .map(|(free, value)| {
+            if free.parameter.is_logarithmic() {
+                value.exp()
+            } else {
+                1.0
+            }
+        })
+        .collect();
+    let count = units.len();
+    DMatrix::from_fn(count, count, |i, j| {
+        units[i] * units[j] * end.spread.covariance[(i, j)]
+    })
+}
+
+/// The correlations of a covariance.
+pub(crate) fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
+        covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
+    })
+}
+
+/// `a - sum b_i` and its standard error.
+pub(crate) fn a_minus_b(search: &Search<'_>, point: &Point, end: &End) -> (f64, f64) {
+    let free = &search.model.free;
+    let weights = DVector::from_fn(free.len(), |k, _| match free[k].parameter {
+        Parameter::A => point.parameters.a,
+        Parameter::B(_) => -1.0,
+        _ => 0.0,
+    });
+    (
+        point.parameters.a_minus_b(),
+        end.spread.variance(&weights).sqrt(),
+    )
 }

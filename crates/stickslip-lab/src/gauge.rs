@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::least_squares::Minimum;
-use crate::model::Model;
 use crate::normal::{Linearised, Normal};
+use crate::part::Part;
 use crate::search::{FINE, Search};
 
 /// The largest number of curves: all errors of up to 31 pieces on their own, and more in groups.
@@ -19,7 +19,7 @@ pub(crate) struct GaugeErrors {
 }
 
 impl Search<'_> {
-    /// The effect of errors of the gauge on a fit: none of a history that is given.
+    /// The effect of errors of the gauge of a record on a fit: none of a history that is given.
     ///
     /// The displacement and the velocity of each piece of the history differ by one standard error each, up or down by the
     /// signs of a Hadamard matrix: the effects of all are orthogonal, and the mean of the squares of their sums is the sum of
@@ -27,19 +27,23 @@ impl Search<'_> {
     /// P. Burman, "The design of optimum multifactorial experiments", Biometrika 33 (1946).
     pub(crate) fn gauge_errors(
         &mut self,
+        number: usize,
         minimum: &Minimum,
         linearised: &Linearised,
     ) -> Option<GaugeErrors> {
-        let (model, load) = (self.model, self.model.load);
-        let point = model.point(&minimum.parameters);
+        let part = &self.model.parts[number];
+        let rows = self.model.rows()[number].clone();
+        let point = part.point(&self.model.of_part(number, &minimum.parameters));
+        let load = part.load;
         // Stress by less than the error of a curve.
         if load.displacement_error() * point.parameters.stiffness <= FINE * self.scale {
             return None;
         }
         let curves = (2 * load.steps().len() + 1).next_power_of_two().min(CURVES);
         let inverse = Normal::new(linearised).regular_inverse();
-        let base = model.change(&point, FINE, &mut self.work).ok()?;
-        let count = model.free.len();
+        let jacobian = linearised.1.rows(rows.start, rows.len());
+        let base = part.change(&point, FINE, &mut self.course).ok()?;
+        let count = self.model.free.len();
         let mut covariance = DMatrix::zeros(count, count);
         let mut squares = vec![0.0; base.len()];
         for row in 0..curves {
@@ -53,15 +57,15 @@ impl Search<'_> {
                 }
             };
             let disturbed = load.disturbed(sign);
-            let other = Model {
+            let other = Part {
                 load: &disturbed,
-                ..model.with(&[])
+                ..part.clone()
             };
-            let curve = other.change(&point, FINE, &mut self.work).ok()?;
-            let differences = curve.iter().zip(&base).zip(&model.roots);
+            let curve = other.change(&point, FINE, &mut self.course).ok()?;
+            let differences = curve.iter().zip(&base).zip(&part.roots);
             let differences = differences.map(|((one, other), root)| root * (one - other));
             let differences = DVector::from_iterator(base.len(), differences);
-            let moved = &inverse * linearised.1.tr_mul(&differences);
+            let moved = &inverse * jacobian.tr_mul(&differences);
             covariance += &moved * moved.transpose() / curves as f64;
             for (square, difference) in squares.iter_mut().zip(&differences) {
                 *square += difference * difference / curves as f64;

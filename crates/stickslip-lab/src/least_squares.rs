@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use crate::error::LabError;
 use crate::normal::{Linearised, Normal};
 
 /// The least factor on the damping after a successful step, and its factors after the first, second, .. unsuccessful
@@ -48,6 +49,20 @@ pub(crate) struct Minimum {
     pub(crate) damping: f64,
 }
 
+impl Minimum {
+    /// A start, of which no residuals are known.
+    pub(crate) fn at_start(parameters: Vec<f64>) -> Self {
+        Self {
+            parameters,
+            residual: DVector::zeros(0),
+            steps: 0,
+            offset: f64::INFINITY,
+            flat: false,
+            damping: 0.0,
+        }
+    }
+}
+
 /// Minimises the sum of the squares of the residuals from `start`, with each parameter in its bounds.
 ///
 /// A step solves `(J^T J + lambda D) d = -J^T r`, where `D` is the largest diagonal of `J^T J` so far, and `lambda`
@@ -58,14 +73,16 @@ pub(crate) struct Minimum {
 /// Levenberg-Marquardt algorithm", Numerical Analysis (1978); D. Bates, D. Watts, "A relative offset orthogonality
 /// convergence criterion for nonlinear least squares", Technometrics 23 (1981).
 ///
+/// An iteration that is interrupted ends where it is.
+///
 /// # Errors
 /// That of the residuals at the start.
-pub(crate) fn minimize<E>(
+pub(crate) fn minimize(
     start: Vec<f64>,
     bounds: &[(f64, f64)],
     stop: Stop,
-    mut evaluate: impl FnMut(&[f64]) -> Result<Linearised, E>,
-) -> Result<Minimum, E> {
+    mut evaluate: impl FnMut(&[f64]) -> Result<Linearised, LabError>,
+) -> Result<Minimum, LabError> {
     let mut parameters = start;
     for (value, &(low, high)) in parameters.iter_mut().zip(bounds) {
         *value = value.clamp(low, high);
@@ -115,6 +132,7 @@ pub(crate) fn minimize<E>(
                 halfway = squares;
             }
             steps += 1;
+            let mut interrupted = false;
             let trial = normal.step(damping, &largest, &free).and_then(|mut step| {
                 if step.amax() > LONGEST {
                     step *= LONGEST / step.amax();
@@ -122,7 +140,9 @@ pub(crate) fn minimize<E>(
                 let to = (parameters.iter().zip(bounds).zip(&step))
                     .map(|((value, &(low, high)), step)| (value + step).clamp(low, high));
                 let to: Vec<f64> = to.collect();
-                let there = evaluate(&to).ok()?;
+                let there = evaluate(&to);
+                interrupted = matches!(there, Err(LabError::Interrupted));
+                let there = there.ok()?;
                 let less = squares - there.0.norm_squared();
                 let expected =
                     -2.0 * normal.gradient.dot(&step) - step.dot(&(&normal.matrix * &step));
@@ -134,6 +154,9 @@ pub(crate) fn minimize<E>(
                 (parameters, at) = (to, there);
                 damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).max(RELIEF);
                 break;
+            }
+            if interrupted {
+                return Ok(minimum(at, parameters, steps, damping, false));
             }
             damping *= raise;
             raise *= RAISE;

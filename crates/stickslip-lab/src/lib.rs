@@ -15,7 +15,7 @@
 //! | --- | --- |
 //! | [`LoadHistory`] | the velocity of the load point over time |
 //! | [`Record`] | measured friction, with weights and windows |
-//! | [`Fit`] | laws, fixed and bounded parameters, trend, initial state, time of the steps, [loss](Loss); [`run`](Fit::run) |
+//! | [`Fit`] | laws, fixed and bounded parameters, trend, initial state, time of the steps, [loss](Loss); [`run`](Fit::run), and [`run_joint`](Fit::run_joint) of several records |
 //! | [`Fitted`] | parameters, standard errors of independent or correlated [errors](Errors), AIC, curve, [spikes](Spike), [warnings](Warning) |
 //! | [`Parameters`] | parameters of friction and machine, and their [curve](Parameters::curve) |
 //! | [`Healing`] | peaks of slide-hold-slide and the healing rate |
@@ -47,17 +47,22 @@
 struct Readme;
 
 mod beginning;
+mod candidates;
+mod checks;
+mod course;
 mod curve;
 mod differences;
 mod doubts;
 mod end;
 mod error;
 mod evolution;
+mod experiment;
 mod features;
 mod fit;
 mod fitted;
 mod gauge;
 mod healing;
+mod joint;
 mod law;
 mod least_squares;
 mod levels;
@@ -68,7 +73,9 @@ mod normal;
 mod offset;
 mod parameter;
 mod parameters;
+mod part;
 mod point;
+mod ranges;
 mod record;
 mod robust;
 mod rosenbrock;
@@ -82,19 +89,22 @@ mod start;
 mod synthetic;
 mod system;
 mod table;
+mod trend;
 mod warning;
 
 pub use curve::Work;
 pub use error::LabError;
 pub use evolution::{BoxedLaw, Evolution};
+pub use experiment::Experiment;
 pub use fit::Fit;
 pub use fitted::{Errors, Estimate, Fitted};
 pub use healing::{Healing, Hold};
+pub use joint::{JointEstimate, JointFit};
 pub use load::LoadHistory;
 pub use loss::Loss;
-pub use model::Trend;
 pub use parameter::Parameter;
 pub use parameters::{Parameters, StateParameters};
 pub use record::Record;
 pub use spikes::Spike;
+pub use trend::Trend;
 pub use warning::Warning;

@@ -42,6 +42,11 @@ impl Scale {
         Self { bound }
     }
 
+    /// The standard deviation by the median; none where all residuals count by their squares.
+    pub(crate) fn deviation(self) -> Option<f64> {
+        self.bound.is_finite().then_some(self.bound / BOUND)
+    }
+
     /// Whether a residual counts by its square.
     pub(crate) fn is_inside(self, residual: f64) -> bool {
         residual.abs() <= self.bound

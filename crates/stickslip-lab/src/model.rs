@@ -1,199 +1,160 @@
-//! Residuals of the model and their derivatives, as functions of the fitted parameters.
+//! The residuals of all records and their derivatives.
+//!
+//! Records share the parameters of friction, and each has its own machine, level, trend and beginning. A fit of one record is
+//! the case of one.
+
+use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::curve::{Work, curve};
+use crate::course::Course;
 use crate::error::LabError;
-use crate::evolution::Evolution;
-use crate::load::LoadHistory;
 use crate::normal::Linearised;
 use crate::parameter::Parameter;
+use crate::parameters::Parameters;
+use crate::part::Part;
 use crate::point::Point;
-use crate::record::Record;
 
-/// A linear trend of friction beside the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[doc(alias = "detrend")]
-pub enum Trend {
-    /// Linear in time.
-    Time,
-    /// Linear in the displacement of the load point.
-    Displacement,
+/// A fitted parameter, of one record or of all.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Free {
+    pub(crate) parameter: Parameter,
+    /// The record, from 0 on; none of a parameter that all share.
+    pub(crate) part: Option<usize>,
 }
 
-impl Trend {
-    /// Time \[s\] or displacement \[m\] since the first sample.
-    pub(crate) fn basis(self, load: &LoadHistory, times: &[f64]) -> Vec<f64> {
-        let at = |time: f64| match self {
-            Self::Time => time,
-            Self::Displacement => load.displacement(time),
-        };
-        let first = times.first().map_or(0.0, |&time| at(time));
-        times.iter().map(|&time| at(time) - first).collect()
-    }
-}
-
-/// An experiment and the parameters that are fitted to it.
+/// The records of a fit and the parameters that are fitted to them.
+#[derive(Clone)]
 pub(crate) struct Model<'a> {
-    pub(crate) laws: &'a [Evolution<'a>],
-    pub(crate) load: &'a LoadHistory,
-    pub(crate) record: &'a Record,
-    /// The values of all parameters that are not fitted.
-    pub(crate) fixed: Point,
-    pub(crate) free: Vec<Parameter>,
-    /// The trend at the samples with a slope of 1; 0 without one.
-    pub(crate) trend: Vec<f64>,
-    /// The values of some parameters at the start.
-    pub(crate) guesses: &'a [(Parameter, f64)],
-    /// The roots of the weights.
-    pub(crate) roots: Vec<f64>,
+    pub(crate) parts: Vec<Part<'a>>,
+    pub(crate) free: Vec<Free>,
 }
 
-impl Model<'_> {
-    /// The value of a parameter that is not fitted.
-    pub(crate) fn known(&self, parameter: Parameter) -> Option<f64> {
-        (!self.free.contains(&parameter)).then(|| self.fixed.value(parameter))
-    }
-
-    /// The parameters with these values of the fitted ones, logarithms of positive ones.
-    pub(crate) fn point(&self, values: &[f64]) -> Point {
-        let mut point = self.fixed.clone();
-        for (parameter, &value) in self.free.iter().zip(values) {
-            let value = if parameter.is_logarithmic() {
-                value.exp()
-            } else {
-                value
-            };
-            point.set(*parameter, value);
-        }
-        point
-    }
-
-    /// The values of the fitted parameters, logarithms of positive ones.
-    pub(crate) fn values(&self, point: &Point) -> Vec<f64> {
-        let values = self.free.iter().map(|parameter| {
-            let value = point.value(*parameter);
-            if parameter.is_logarithmic() {
-                value.ln()
-            } else {
-                value
+impl<'a> Model<'a> {
+    /// The model of records of which each has the same shared parameters.
+    pub(crate) fn new(mut parts: Vec<Part<'a>>) -> Self {
+        let mut free = Vec::new();
+        let shared = parts.first().map_or(&[][..], |part| &part.free);
+        free.extend(
+            shared
+                .iter()
+                .filter(|parameter| parameter.is_shared())
+                .map(|&parameter| Free {
+                    parameter,
+                    part: None,
+                }),
+        );
+        for (number, part) in parts.iter_mut().enumerate() {
+            part.places.clear();
+            for &parameter in &part.free {
+                let of = |part| Free { parameter, part };
+                let known = free.iter().position(|free| *free == of(None));
+                part.places.push(known.unwrap_or(free.len()));
+                if known.is_none() {
+                    free.push(of(Some(number)));
+                }
             }
+        }
+        Self { parts, free }
+    }
+
+    /// The same model with further parameters of some records, which are 0, behind the others.
+    pub(crate) fn with(&self, further: &[Vec<Parameter>]) -> Self {
+        let mut model = self.clone();
+        for (number, (part, further)) in model.parts.iter_mut().zip(further).enumerate() {
+            for &parameter in further {
+                part.places.push(model.free.len());
+                part.free.push(parameter);
+                model.free.push(Free {
+                    parameter,
+                    part: Some(number),
+                });
+            }
+        }
+        model
+    }
+
+    /// The values of the fitted parameters of a record.
+    pub(crate) fn of_part(&self, part: usize, values: &[f64]) -> Vec<f64> {
+        let places = &self.parts[part].places;
+        places.iter().map(|&place| values[place]).collect()
+    }
+
+    /// The parameters of each record with these values of the fitted ones, logarithms of positive ones.
+    pub(crate) fn points(&self, values: &[f64]) -> Vec<Point> {
+        let parts = self.parts.iter().enumerate();
+        parts
+            .map(|(number, part)| part.point(&self.of_part(number, values)))
+            .collect()
+    }
+
+    /// The values of the fitted parameters, logarithms of positive ones; of shared ones those of the first record.
+    pub(crate) fn values(&self, points: &[Point]) -> Vec<f64> {
+        let mut values = vec![0.0; self.free.len()];
+        for (part, point) in self.parts.iter().zip(points).rev() {
+            for (&place, value) in part.places.iter().zip(part.values(point)) {
+                values[place] = value;
+            }
+        }
+        values
+    }
+
+    /// The values of a guess, the same of each record, and guesses of single parameters before it.
+    pub(crate) fn guessed(&self, guess: &Parameters) -> Vec<f64> {
+        let parts = self.parts.iter().map(|part| {
+            let mut start = Point::new(guess.clone());
+            for &(parameter, value) in part.guesses {
+                start.set(parameter, value);
+            }
+            start
         });
-        values.collect()
+        self.values(&parts.collect::<Vec<_>>())
     }
 
-    /// The coefficient of friction at the samples.
-    pub(crate) fn friction(
-        &self,
-        point: &Point,
-        tolerance: f64,
-        work: &mut Work,
-    ) -> Result<Vec<f64>, LabError> {
-        let rows = self.change(point, tolerance, work)?;
-        let parameters = &point.parameters;
-        Ok((rows.iter().zip(&self.trend))
-            .map(|(m, trend)| parameters.reference_friction + m + parameters.trend * trend)
-            .collect())
+    /// The rows of the residuals of each record.
+    pub(crate) fn rows(&self) -> Vec<Range<usize>> {
+        let mut from = 0;
+        let parts = self.parts.iter().map(|part| {
+            let rows = from..from + part.len();
+            from = rows.end;
+            rows
+        });
+        parts.collect()
     }
 
-    /// `mu - mu0` at the samples, without the trend.
-    pub(crate) fn change(
-        &self,
-        point: &Point,
-        tolerance: f64,
-        work: &mut Work,
-    ) -> Result<Vec<f64>, LabError> {
-        let times = &self.times(point);
-        let (laws, load) = (self.laws, self.load);
-        Ok(if laws.len() == 1 {
-            let rows = curve::<2, 1>(laws, point, load, times, tolerance, work)?;
-            rows.iter().map(|row| row[0]).collect()
-        } else {
-            let rows = curve::<3, 1>(laws, point, load, times, tolerance, work)?;
-            rows.iter().map(|row| row[0]).collect()
-        })
+    /// Whether each sample has a weight.
+    pub(crate) fn weighted(&self) -> Vec<bool> {
+        self.parts.iter().flat_map(Part::weighted).collect()
     }
 
-    /// The weighted residuals, model minus data, and their derivatives.
+    /// The number of samples with a weight.
+    pub(crate) fn samples(&self) -> usize {
+        self.parts.iter().map(|part| part.record.weighted()).sum()
+    }
+
+    /// The weighted residuals, model minus data, and their derivatives, record by record.
     pub(crate) fn linearised(
         &self,
         values: &[f64],
         tolerance: f64,
-        work: &mut Work,
+        course: &mut Course<'_>,
     ) -> Result<Linearised, LabError> {
-        let point = self.point(values);
-        let custom = (self.laws.iter()).any(|law| matches!(law, Evolution::Custom(_)));
-        if custom {
-            return self.by_differences(values, tolerance, work);
+        if let [part] = &self.parts[..] {
+            return part.linearised(values, tolerance, course);
         }
-        let initial = self.free.iter().any(|parameter| {
-            matches!(
-                parameter,
-                Parameter::InitialState(_) | Parameter::InitialStress
-            )
-        });
-        let stiffness = self.free.contains(&Parameter::Stiffness);
-        let one = self.laws.len() == 1;
-        // As few columns as the parameters need.
-        if self.free.iter().any(|parameter| parameter.is_of_law()) {
-            return if one {
-                self.by_sensitivities::<2, 8>(&point, tolerance, work)
-            } else {
-                self.by_sensitivities::<3, 12>(&point, tolerance, work)
-            };
-        }
-        match (self.laws.len(), initial, stiffness) {
-            (1, false, false) => self.by_sensitivities::<2, 4>(&point, tolerance, work),
-            (1, false, true) => self.by_sensitivities::<2, 5>(&point, tolerance, work),
-            (1, true, _) => self.by_sensitivities::<2, 7>(&point, tolerance, work),
-            (_, false, false) => self.by_sensitivities::<3, 6>(&point, tolerance, work),
-            (_, false, true) => self.by_sensitivities::<3, 7>(&point, tolerance, work),
-            (_, true, _) => self.by_sensitivities::<3, 10>(&point, tolerance, work),
-        }
-    }
-
-    fn by_sensitivities<const N: usize, const W: usize>(
-        &self,
-        point: &Point,
-        tolerance: f64,
-        work: &mut Work,
-    ) -> Result<Linearised, LabError> {
-        use crate::system::column;
-        let (times, parameters) = (&self.times(point), &point.parameters);
-        let rows = curve::<N, W>(self.laws, point, self.load, times, tolerance, work)?;
-        let sources: Vec<(usize, f64)> = (self.free.iter())
-            .map(|parameter| match *parameter {
-                Parameter::A => (column::A, parameters.a),
-                Parameter::B(i) => (column::b(i + 1), 1.0),
-                Parameter::SlipDistance(i) => (column::slip_distance::<N>(i + 1), 1.0),
-                Parameter::Stiffness => (column::stiffness::<N>(), 1.0),
-                Parameter::InitialState(i) => (column::initial_state::<N>(i + 1), 1.0),
-                Parameter::InitialStress => (column::initial_stress::<N>(), 1.0),
-                Parameter::AgingVelocity(i) | Parameter::StressWeight(i) => {
-                    (column::law::<N>(i + 1), 1.0)
-                }
-                Parameter::ReferenceFriction | Parameter::Trend | Parameter::StepOffset => (0, 0.0),
-            })
-            .collect();
-        let by_offset = if self.free.contains(&Parameter::StepOffset) {
-            self.by_offset(point, tolerance, work)?
-        } else {
-            Vec::new()
-        };
-        let mut residual = DVector::zeros(rows.len());
-        let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
-        for (n, row) in rows.iter().enumerate() {
-            let root = self.roots[n];
-            let mu = parameters.reference_friction + row[0] + parameters.trend * self.trend[n];
-            residual[n] = root * (mu - self.record.friction()[n]);
-            for (k, parameter) in self.free.iter().enumerate() {
-                jacobian[(n, k)] = root
-                    * match parameter {
-                        Parameter::ReferenceFriction => 1.0,
-                        Parameter::Trend => self.trend[n],
-                        Parameter::StepOffset => by_offset[n],
-                        _ => sources[k].1 * row[sources[k].0],
-                    };
+        let rows = self.rows();
+        let count = rows.last().map_or(0, |rows| rows.end);
+        let mut residual = DVector::zeros(count);
+        let mut jacobian = DMatrix::zeros(count, self.free.len());
+        for (number, (part, rows)) in self.parts.iter().zip(rows).enumerate() {
+            let values = self.of_part(number, values);
+            let (own, by) = part.linearised(&values, tolerance, course)?;
+            residual.rows_mut(rows.start, rows.len()).copy_from(&own);
+            for (k, &place) in part.places.iter().enumerate() {
+                let mut column = jacobian.column_mut(place);
+                column
+                    .rows_mut(rows.start, rows.len())
+                    .copy_from(&by.column(k));
             }
         }
         Ok((residual, jacobian))

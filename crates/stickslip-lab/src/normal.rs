@@ -156,11 +156,4 @@ impl Normal {
         }
         sum
     }
-
-    /// The number of combinations of parameters with an influence.
-    pub(crate) fn rank(&self) -> usize {
-        (0..self.scale.len())
-            .filter(|&k| self.is_regular(k))
-            .count()
-    }
 }

@@ -1,15 +1,15 @@
 //! The time of velocity steps as a parameter.
 
-use crate::curve::Work;
+use crate::course::Course;
 use crate::error::LabError;
-use crate::model::Model;
+use crate::part::Part;
 use crate::point::Point;
 
 /// The increment in differences, as a share of the time in which the direct effect of the fastest step relaxes: the error
 /// of a central difference is its square, a millionth.
 const DIFFERENCE: f64 = 1e-3;
 
-impl Model<'_> {
+impl Part<'_> {
     /// The times of the samples on the clock of the load history \[s\].
     pub(crate) fn times(&self, point: &Point) -> Vec<f64> {
         let times = self.record.times().iter();
@@ -21,13 +21,13 @@ impl Model<'_> {
         &self,
         point: &Point,
         tolerance: f64,
-        work: &mut Work,
+        course: &mut Course<'_>,
     ) -> Result<Vec<f64>, LabError> {
         let h = DIFFERENCE * self.rise(point);
         let mut at = |by: f64| {
             let mut moved = point.clone();
             moved.step_offset += by;
-            self.change(&moved, tolerance, work)
+            self.change(&moved, tolerance, course)
         };
         let (late, early) = (at(h)?, at(-h)?);
         let pairs = late.iter().zip(&early);
@@ -54,11 +54,5 @@ impl Model<'_> {
         let lead = before.map_or(f64::INFINITY, |before| first - before);
         let spans = times.windows(2).map(|pair| pair[1] - pair[0]);
         spans.filter(|span| *span > 0.0).fold(lead, f64::min)
-    }
-
-    /// The first and the last time of the record; there are samples.
-    fn ends(&self) -> (f64, f64) {
-        let times = self.record.times();
-        (times[0], times[times.len() - 1])
     }
 }

@@ -61,6 +61,11 @@ impl Parameter {
         }
     }
 
+    /// Whether all records of a fit share it: a parameter of friction, not of a machine or of a record.
+    pub(crate) fn is_shared(self) -> bool {
+        matches!(self, Self::A | Self::B(_) | Self::SlipDistance(_)) || self.is_of_law()
+    }
+
     /// Whether it is one that some laws have beside `L`.
     pub(crate) fn is_of_law(self) -> bool {
         matches!(self, Self::AgingVelocity(_) | Self::StressWeight(_))

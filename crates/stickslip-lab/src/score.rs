@@ -2,9 +2,9 @@
 
 use nalgebra::DVector;
 
-use crate::model::Model;
 use crate::normal::{Linearised, Normal};
 use crate::parameter::Parameter;
+use crate::part::Part;
 use crate::spread::{independent, neighbours};
 
 /// The gain of a fit by further parameters, in the linear approximation at its minimum.
@@ -24,7 +24,7 @@ pub(crate) struct Tests {
     pub(crate) initial: Option<Score>,
 }
 
-impl Model<'_> {
+impl Part<'_> {
     /// The parameters that are tested: those of the steps, and those of the beginning.
     pub(crate) fn further(&self) -> [Vec<Parameter>; 2] {
         let states = (0..self.laws.len()).map(Parameter::InitialState);
@@ -40,46 +40,37 @@ impl Model<'_> {
             }
         })
     }
-
-    /// The same model with further parameters, which are 0.
-    pub(crate) fn with(&self, further: &[Vec<Parameter>]) -> Self {
-        let further = further.iter().flatten().copied();
-        Self {
-            free: self.free.iter().copied().chain(further).collect(),
-            fixed: self.fixed.clone(),
-            trend: self.trend.clone(),
-            roots: self.roots.clone(),
-            ..*self
-        }
-    }
 }
 
 impl Tests {
-    /// The tests of further parameters, whose derivatives follow those of the fitted ones; of these the ones `inside` their
-    /// bounds would move. Samples without weight do not count.
-    pub(crate) fn new(
+    /// The tests of further parameters of each record, whose derivatives follow those of the fitted ones, record by record; of
+    /// these the ones `inside` their bounds would move. Samples without weight do not count.
+    pub(crate) fn of_each(
         linearised: &Linearised,
         inside: &[bool],
-        further: &[Vec<Parameter>; 2],
+        further: &[[Vec<Parameter>; 2]],
         weighted: &[bool],
-    ) -> Self {
+    ) -> Vec<Self> {
         let normal = Normal::new(linearised);
-        let [steps, beginning] = further.each_ref().map(Vec::len);
-        let score = |skip: usize, count: usize| {
+        let all: usize = further.iter().flatten().map(Vec::len).sum();
+        let mut skip = 0;
+        let mut next = |count: usize| {
+            let tested = skip..skip + count;
+            skip += count;
             let mut free = inside.to_vec();
-            let tested = (0..steps + beginning).map(|k| (skip..skip + count).contains(&k));
-            free.extend(tested);
+            free.extend((0..all).map(|k| tested.contains(&k)));
             (count > 0).then(|| Score::new(linearised, &normal, &free, count, weighted))
         };
-        Self {
-            step_offset: score(0, steps),
-            initial: score(steps, beginning),
-        }
+        let records = further.iter().map(|[steps, beginning]| Self {
+            step_offset: next(steps.len()),
+            initial: next(beginning.len()),
+        });
+        records.collect()
     }
 }
 
 impl Score {
-    /// The test of the last `count` parameters of `free`, of which the others are at their minimum. Samples count as many
+    /// The test of the last `count` of the parameters that are `free`, of which the others are at their minimum. Samples count as many
     /// independent ones as the residuals that are left say: those of the fit are correlated by what is tested. Source: C. R.
     /// Rao, "Large sample tests of statistical hypotheses concerning several parameters", Math. Proc. Camb. Phil. Soc. 44
     /// (1948).

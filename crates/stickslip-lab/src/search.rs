@@ -1,8 +1,8 @@
 //! The least minimum of several starts.
 
-use crate::curve::Work;
+use crate::candidates::Shown;
+use crate::course::Course;
 use crate::error::LabError;
-use crate::features::Features;
 use crate::least_squares::{Minimum, Stop, minimize};
 use crate::model::Model;
 
@@ -30,39 +30,45 @@ pub(crate) struct Search<'a> {
     pub(crate) scale: f64,
     /// The number of attempted steps.
     pub(crate) steps: usize,
-    pub(crate) work: Work,
+    pub(crate) course: Course<'a>,
 }
 
 impl<'a> Search<'a> {
-    pub(crate) fn new(model: &'a Model<'a>, bounds: &'a [(f64, f64)], scale: f64) -> Self {
+    pub(crate) fn new(
+        model: &'a Model<'a>,
+        bounds: &'a [(f64, f64)],
+        scale: f64,
+        course: Course<'a>,
+    ) -> Self {
         Self {
             model,
             bounds,
             scale,
             steps: 0,
-            work: Work::default(),
+            course,
         }
     }
 
-    /// The minimum from the best of the starts computed from the curve; from the next one where the best does not
-    /// converge.
+    /// The minimum from the best of the starts computed from the curves; from the next one where the best does not
+    /// converge. If it is interrupted, the least sum of squares so far.
     ///
     /// # Errors
-    /// [`LabError::NoStart`], and that of the best one if none converges.
-    pub(crate) fn among(&mut self, features: &Features) -> Result<Minimum, LabError> {
-        let (starts, tried) = features.starts(self.model, self.bounds, &mut self.work);
-        let stop = Stop {
-            offset: ROUGH,
-            change: COARSE * self.scale,
-            steps: ROUGH_STEPS,
-            damping: DAMPING,
-        };
-        let mut ends = self.rough(starts, stop);
+    /// [`LabError::NoStart`], that of the best one if none converges, and [`LabError::Interrupted`] before the first start.
+    pub(crate) fn among(&mut self, shown: &Shown) -> Result<Minimum, LabError> {
+        let (starts, tried) = shown.starts(self.model, self.bounds, &mut self.course);
+        let first = starts.first().cloned();
+        let mut ends = self.rough(starts);
         if let Some(end) = ends.first() {
-            let end = self.model.point(&end.parameters).parameters;
-            let restarts = features.restarts(self.model, self.bounds, &end, &mut self.work);
-            ends.extend(self.rough(restarts, stop));
+            let end = self.model.points(&end.parameters);
+            let end: Vec<_> = end.into_iter().map(|point| point.parameters).collect();
+            let restarts = shown.restarts(self.model, self.bounds, &end, &mut self.course);
+            ends.extend(self.rough(restarts));
             sort(&mut ends);
+        }
+        if self.course.is_interrupted() {
+            let begun = ends.into_iter().next();
+            let first = || first.map(Minimum::at_start);
+            return begun.or_else(first).ok_or(LabError::Interrupted);
         }
         let mut first = Err(LabError::NoStart { starts: tried });
         for end in ends {
@@ -78,7 +84,13 @@ impl<'a> Search<'a> {
     }
 
     /// The ends of interrupted iterations, the best one first.
-    fn rough(&mut self, starts: Vec<Vec<f64>>, stop: Stop) -> Vec<Minimum> {
+    fn rough(&mut self, starts: Vec<Vec<f64>>) -> Vec<Minimum> {
+        let stop = Stop {
+            offset: ROUGH,
+            change: COARSE * self.scale,
+            steps: ROUGH_STEPS,
+            damping: DAMPING,
+        };
         let ends = starts
             .into_iter()
             .map(|start| self.descend(start, COARSE, stop));
@@ -87,7 +99,7 @@ impl<'a> Search<'a> {
         ends
     }
 
-    /// The minimum from one start.
+    /// The minimum from one start, or where it is interrupted on the way.
     ///
     /// # Errors
     /// That of the curve at the start, and [`LabError::NotConverged`].
@@ -102,8 +114,13 @@ impl<'a> Search<'a> {
             steps: MAX_STEPS,
             damping,
         };
-        let minimum = self.descend(start, FINE, stop)?;
-        if minimum.offset <= CONVERGED || minimum.flat {
+        let begin = start.clone();
+        let minimum = match self.descend(start, FINE, stop) {
+            Err(LabError::Interrupted) => Minimum::at_start(begin),
+            minimum => minimum?,
+        };
+        let converged = minimum.offset <= CONVERGED || minimum.flat;
+        if converged || self.course.is_interrupted() {
             return Ok(minimum);
         }
         Err(LabError::NotConverged {
@@ -119,7 +136,7 @@ impl<'a> Search<'a> {
         stop: Stop,
     ) -> Result<Minimum, LabError> {
         let minimum = minimize(start, self.bounds, stop, |values| {
-            self.model.linearised(values, tolerance, &mut self.work)
+            self.model.linearised(values, tolerance, &mut self.course)
         })?;
         self.steps += minimum.steps;
         Ok(minimum)

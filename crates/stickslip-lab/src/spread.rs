@@ -1,5 +1,7 @@
 //! The covariance of fitted parameters, by independent or by correlated residuals.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::loss::Scale;
@@ -9,77 +11,88 @@ use crate::normal::{Linearised, Normal};
 /// ones would be less than `(.7/1.3)^(1/2)`, three quarters, of the true ones.
 const CORRELATED: f64 = 0.3;
 
-/// The statistics of residuals and of the parameters by them.
+/// The covariance of the parameters, and the statistics of the residuals of each record.
 #[derive(Debug, Clone)]
 pub(crate) struct Spread {
     /// The covariance of the fitted values; infinite for those without influence.
     pub(crate) covariance: DMatrix<f64>,
-    /// The standard deviation of the residuals.
+    pub(crate) parts: Vec<Residuals>,
+    normal: Normal,
+}
+
+/// The statistics of the residuals of a record.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Residuals {
+    /// The standard deviation.
     pub(crate) deviation: f64,
-    /// The correlation of neighbouring residuals.
+    /// The correlation of neighbours.
     pub(crate) correlation: f64,
     /// The number of independent samples that determine a mean as well.
     pub(crate) samples: f64,
     /// Whether the covariance is that of correlated residuals.
     pub(crate) correlated: bool,
-    normal: Normal,
+}
+
+/// The rows of a record that have weights, and the slopes of their losses.
+struct Block<'a> {
+    jacobian: &'a DMatrix<f64>,
+    rows: Vec<usize>,
+    slopes: Vec<f64>,
 }
 
 impl Spread {
     /// The covariance `A^-1 B A^-1` of the minimum of a sum of losses `rho(r)`, `A` their second derivatives and `B` the
-    /// covariance of their slopes:
+    /// covariance of their slopes, over records `r`:
     ///
     /// ```text
-    /// A = mean(psi') J^T J,   B = v J^T R J,   v = sum psi(r)^2/(N - tr((J^T J)^-1 J^T R J)),   psi = rho'
+    /// A = mean(psi') J^T J,   B = sum v_r J_r^T R_r J_r,   v_r = sum psi^2/(N_r - tr((J^T J)^-1 J_r^T R_r J_r)),   psi = rho'
     /// ```
     ///
-    /// With the correlation `c` of neighbouring residuals, `R` has the entries `c^|i - j|` of a process of first order for
-    /// `c` above 0.3 and its two standard errors, else it is the identity. Of the correlation that the fit takes from the residuals, the part of
-    /// derivatives that vary slowly is added again: `(1 - c) tr(..)/N`. Samples without weight do not count. Sources: P. J.
-    /// Huber, "Robust regression", Ann. Statist. 1 (1973); H. White, "A heteroskedasticity-consistent covariance matrix
-    /// estimator", Econometrica 48 (1980), in its form for correlated errors.
-    pub(crate) fn new(linearised: &Linearised, weighted: &[bool], scale: Scale) -> Self {
+    /// With the correlation `c` of neighbouring residuals of a record, `R` has the entries `c^|i - j|` of a process of first
+    /// order for `c` above 0.3 and its two standard errors, else it is the identity. Of the correlation that the fit takes
+    /// from the residuals, the part of derivatives that vary slowly is added again: `(1 - c) tr(..)/N`. Samples without weight
+    /// do not count. Sources: P. J. Huber, "Robust regression", Ann. Statist. 1 (1973); H. White, "A
+    /// heteroskedasticity-consistent covariance matrix estimator", Econometrica 48 (1980), in its form for correlated errors.
+    pub(crate) fn new(
+        linearised: &Linearised,
+        weighted: &[bool],
+        records: &[(Range<usize>, Scale)],
+    ) -> Self {
         let normal = Normal::new(linearised);
         let (residual, jacobian) = linearised;
-        let slopes: Vec<f64> = (0..residual.len())
-            .filter(|&n| weighted[n])
-            .map(|n| scale.slope(residual[n]))
-            .collect();
-        let rows: Vec<DVector<f64>> = (0..residual.len())
-            .filter(|&n| weighted[n])
-            .map(|n| jacobian.row(n).transpose())
-            .collect();
-        let count = slopes.len() as f64;
-        let squares: f64 = slopes.iter().map(|slope| slope * slope).sum();
-        let found = neighbours(&slopes);
         let regular = normal.regular_inverse();
-        let removed = |middle: &DMatrix<f64>| (&regular * middle).trace();
-        let lost = removed(&correlated(&rows, found.max(0.0)));
-        let correlation = (found + (1.0 - found) * lost / count).min(1.0 - count.recip());
-        let inside = residual.iter().zip(weighted);
-        let inside = inside.filter(|(r, weighted)| **weighted && scale.is_inside(**r));
-        let curvature = inside.count() as f64 / count;
-        let is_correlated = are_correlated(count, correlation);
-        let (covariance, variance) = if is_correlated {
-            let middle = correlated(&rows, correlation);
-            let variance = squares / (count - removed(&middle)).max(1.0);
-            let mut covariance = &regular * middle * &regular * variance;
-            for k in 0..covariance.nrows() {
-                if !normal.has_influence(k) {
-                    covariance[(k, k)] = f64::INFINITY;
-                }
+        let count = regular.nrows();
+        let mut middle = DMatrix::zeros(count, count);
+        let (mut parts, mut inside, mut samples) = (Vec::new(), 0, 0);
+        for (rows, scale) in records {
+            let rows: Vec<usize> = rows.clone().filter(|&n| weighted[n]).collect();
+            inside += rows
+                .iter()
+                .filter(|&&n| scale.is_inside(residual[n]))
+                .count();
+            samples += rows.len();
+            let block = Block {
+                jacobian,
+                slopes: rows.iter().map(|&n| scale.slope(residual[n])).collect(),
+                rows,
+            };
+            let (statistics, spread) = block.spread(&regular);
+            middle += spread;
+            parts.push(statistics);
+        }
+        let curvature = inside as f64 / samples as f64;
+        let mut covariance = &regular * middle * &regular / (curvature * curvature);
+        for k in 0..count {
+            if !normal.has_influence(k) {
+                covariance[(k, k)] = f64::INFINITY;
             }
-            (covariance, variance)
-        } else {
-            let variance = squares / (count - normal.rank() as f64);
-            (variance * normal.inverse(), variance)
-        };
+        }
+        for part in &mut parts {
+            part.deviation /= curvature;
+        }
         Self {
-            covariance: covariance / (curvature * curvature),
-            deviation: variance.sqrt() / curvature,
-            correlation,
-            samples: independent(count, correlation),
-            correlated: is_correlated,
+            covariance,
+            parts,
             normal,
         }
     }
@@ -99,6 +112,49 @@ impl Spread {
             }
         }
         sum
+    }
+}
+
+impl Block<'_> {
+    /// The statistics of the residuals, and `v J^T R J`.
+    fn spread(&self, regular: &DMatrix<f64>) -> (Residuals, DMatrix<f64>) {
+        let count = self.slopes.len() as f64;
+        let squares: f64 = self.slopes.iter().map(|slope| slope * slope).sum();
+        let found = neighbours(&self.slopes);
+        let removed = |middle: &DMatrix<f64>| (regular * middle).trace();
+        let lost = removed(&self.correlated(found.max(0.0)));
+        let correlation = (found + (1.0 - found) * lost / count).min(1.0 - count.recip());
+        let correlated = are_correlated(count, correlation);
+        let middle = self.correlated(if correlated { correlation } else { 0.0 });
+        let variance = squares / (count - removed(&middle)).max(1.0);
+        let statistics = Residuals {
+            deviation: variance.sqrt(),
+            correlation,
+            samples: independent(count, correlation),
+            correlated,
+        };
+        (statistics, variance * middle)
+    }
+
+    /// `J^T R J` with `R = c^|i - j|`: each row with the sum over those before, which decays by `c` a row.
+    fn correlated(&self, correlation: f64) -> DMatrix<f64> {
+        let count = self.jacobian.ncols();
+        let mut sum = vec![0.0; count];
+        let mut product = DMatrix::zeros(count, count);
+        for &n in &self.rows {
+            for j in 0..count {
+                let row_j = self.jacobian[(n, j)];
+                for i in 0..count {
+                    let row_i = self.jacobian[(n, i)];
+                    product[(i, j)] +=
+                        row_i * (row_j + correlation * sum[j]) + correlation * sum[i] * row_j;
+                }
+            }
+            for (k, sum) in sum.iter_mut().enumerate() {
+                *sum = correlation * *sum + self.jacobian[(n, k)];
+            }
+        }
+        product
     }
 }
 
@@ -125,17 +181,4 @@ pub(crate) fn independent(count: f64, correlation: f64) -> f64 {
     } else {
         count
     }
-}
-
-/// `J^T R J` with `R = c^|i - j|`: each row with the sum over those before, which decays by `c` a row.
-fn correlated(rows: &[DVector<f64>], correlation: f64) -> DMatrix<f64> {
-    let count = rows.first().map_or(0, DVector::len);
-    let mut sum = DVector::zeros(count);
-    let mut product = DMatrix::zeros(count, count);
-    for row in rows {
-        let before = correlation * &sum;
-        product += row * row.transpose() + row * before.transpose() + &before * row.transpose();
-        sum = before + row;
-    }
-    product
 }

@@ -1,12 +1,13 @@
 //! Curves of known parameters.
 
-use crate::curve::{Work, curve};
+use crate::course::Course;
+use crate::curve::curve;
 use crate::error::LabError;
 use crate::evolution::Evolution;
 use crate::load::{LoadHistory, ascending};
-use crate::model::Trend;
 use crate::parameters::Parameters;
 use crate::point::Point;
+use crate::trend::Trend;
 
 /// The local error of a step in `ln V` and each `ln theta`.
 const TOLERANCE: f64 = 1e-10;
@@ -43,13 +44,13 @@ impl Parameters {
                 velocity > 0.0,
             )?;
         }
-        let mut work = Work::default();
+        let mut course = Course::default();
         let (mu0, point) = (self.reference_friction, Point::new(self.clone()));
         Ok(if laws.len() == 1 {
-            let rows = curve::<2, 1>(laws, &point, load, times, TOLERANCE, &mut work)?;
+            let rows = curve::<2, 1>(laws, &point, load, times, TOLERANCE, &mut course)?;
             rows.iter().map(|row| mu0 + row[0]).collect()
         } else {
-            let rows = curve::<3, 1>(laws, &point, load, times, TOLERANCE, &mut work)?;
+            let rows = curve::<3, 1>(laws, &point, load, times, TOLERANCE, &mut course)?;
             rows.iter().map(|row| mu0 + row[0]).collect()
         })
     }

@@ -85,6 +85,14 @@ pub enum Warning {
         /// The fall of the criterion, in the linear approximation.
         aic: f64,
     },
+    /// The fit was interrupted: its parameters are the best so far.
+    Interrupted {
+        /// The number of attempted steps.
+        steps: usize,
+        /// The relative offset: the distance to the minimum of the linear model over the radius of its confidence region;
+        /// infinite if it is not known.
+        offset: f64,
+    },
     /// A parameter, of any kind, is at a bound, where the sum of squares is not stationary.
     AtBound {
         /// The parameter.
@@ -171,6 +179,14 @@ impl fmt::Display for Warning {
             Self::Transient { aic } => write!(
                 f,
                 "the record begins in a transient (AIC lower by {aic:.0} with a free beginning): free the initial state, or begin in steady sliding"
+            ),
+            Self::Interrupted { steps, offset } if offset.is_finite() => write!(
+                f,
+                "the fit was interrupted after {steps} steps, {offset:.1e} standard errors from a minimum: run it again for the parameters of the minimum"
+            ),
+            Self::Interrupted { steps, .. } => write!(
+                f,
+                "the fit was interrupted after {steps} steps, in the choice of a start: run it again for the parameters of the minimum"
             ),
             Self::AtBound { parameter, bound } => {
                 write!(f, "{parameter} is at its bound {bound:.3e}")

@@ -8,6 +8,8 @@ mod fits;
 mod gauges;
 mod guesses;
 mod identifiability;
+mod interrupts;
+mod joint;
 mod laws;
 mod loads;
 mod measured;
