@@ -15,6 +15,12 @@ pub(crate) const EVIDENCE: f64 = 10.0;
 /// The relative offset of a flat valley: a tenth of a standard error.
 const VALLEY: f64 = 0.1;
 
+/// `L` in experiments \[m\]. Source: C. Marone, "Laboratory-derived friction laws and their application to seismic faulting",
+/// Annu. Rev. Earth Planet. Sci. 26 (1998).
+const EXPERIENCE: (f64, f64) = (1e-6, 1e-4);
+/// The factor beyond these at which a unit is doubted: those of lengths differ by a thousand.
+const BEYOND: f64 = 10.0;
+
 /// The warnings of a fit for one of its records.
 pub(crate) fn warnings(
     fitted: &Fitted,
@@ -81,6 +87,20 @@ pub(crate) fn warnings(
     let (least, most) = slip_distances().fold((f64::INFINITY, 0.0_f64), |(least, most), length| {
         (least.min(length), most.max(length))
     });
+    let fastest = fitted
+        .load
+        .iter()
+        .fold(0.0_f64, |most, (_, v)| most.max(*v));
+    for (i, state) in parameters.states.iter().enumerate() {
+        let slip_distance = state.slip_distance;
+        if !(EXPERIENCE.0 / BEYOND..=EXPERIENCE.1 * BEYOND).contains(&slip_distance) {
+            warnings.push(Warning::Unit {
+                parameter: Parameter::SlipDistance(i),
+                slip_distance,
+                velocity: fastest,
+            });
+        }
+    }
     let relaxation = parameters.a / parameters.stiffness;
     if relative > 0.1 && relaxation > least {
         warnings.push(Warning::SoftMachine {

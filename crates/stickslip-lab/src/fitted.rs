@@ -11,6 +11,7 @@ use crate::loss::Loss;
 use crate::model::Model;
 use crate::parameter::Parameter;
 use crate::parameters::Parameters;
+use crate::part::Part;
 use crate::point::Point;
 use crate::search::Search;
 use crate::spikes::Spike;
@@ -49,6 +50,9 @@ pub struct Fitted {
     pub estimates: Vec<Estimate>,
     /// The correlations of the fitted parameters, in the order of `estimates`; NaN where a standard error is infinite.
     pub correlation: DMatrix<f64>,
+    /// The slides and holds of the load point over the record, as they were given or read from a measured displacement: the time
+    /// \[s\] from which on it has a velocity [m/s], 0 in a hold. The first one begins at the first sample.
+    pub load: Vec<(f64, f64)>,
     /// The time by which the velocity changes are later than the load history says \[s\]; 0 unless it is fitted or fixed.
     pub step_offset: f64,
     /// Shear over normal stress at the first sample above that at which the block slides with the load point; 0 unless it is
@@ -152,6 +156,7 @@ impl Fitted {
             offset: minimum.offset,
             interrupted: search.course.is_interrupted(),
             work: search.course.work,
+            load: slides(part, point.step_offset),
             step_offset: point.step_offset,
             initial_stress: point.initial_stress,
             parameters: point.parameters,
@@ -219,4 +224,14 @@ pub(crate) fn a_minus_b(search: &Search<'_>, point: &Point, end: &End) -> (f64, 
         point.parameters.a_minus_b(),
         end.spread.variance(&weights).sqrt(),
     )
+}
+
+/// Slides and holds over a record, whose steps come later by an offset \[s\].
+fn slides(part: &Part<'_>, offset: f64) -> Vec<(f64, f64)> {
+    let (first, last) = part.ends();
+    let phases = part.load.phases(first - offset, last - offset);
+    let slides = phases.iter();
+    slides
+        .map(|phase| (phase.start + offset, phase.velocity))
+        .collect()
 }

@@ -11,6 +11,7 @@ use crate::least_squares::Minimum;
 use crate::parameter::Parameter;
 use crate::rounded::rounded;
 use crate::search::Search;
+use crate::table::told;
 use crate::warning::Warning;
 
 /// A parameter that was fitted to several records.
@@ -135,6 +136,7 @@ impl fmt::Display for JointFit {
                 number + 1,
                 record.residuals.len()
             )?;
+            writeln!(f, "  load point   {}", told(&record.load))?;
             for estimate in self
                 .estimates
                 .iter()

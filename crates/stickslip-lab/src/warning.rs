@@ -85,6 +85,17 @@ pub enum Warning {
         /// The fall of the criterion, in the linear approximation.
         aic: f64,
     },
+    /// `L` is ten times beyond the laboratory's experience, 1 to 100 um: are displacements and velocities in metres? The data
+    /// cannot tell: with lengths in another unit the same curve has `L`, `1/k` and velocities in that unit. Source: C. Marone,
+    /// "Laboratory-derived friction laws and their application to seismic faulting", Annu. Rev. Earth Planet. Sci. 26 (1998).
+    Unit {
+        /// The parameter.
+        parameter: Parameter,
+        /// `L` \[m\].
+        slip_distance: f64,
+        /// The fastest velocity of the load point [m/s].
+        velocity: f64,
+    },
     /// The fit was interrupted: its parameters are the best so far.
     Interrupted {
         /// The number of attempted steps.
@@ -179,6 +190,14 @@ impl fmt::Display for Warning {
             Self::Transient { aic } => write!(
                 f,
                 "the record begins in a transient (AIC lower by {aic:.0} with a free beginning): free the initial state, or begin in steady sliding"
+            ),
+            Self::Unit {
+                parameter,
+                slip_distance,
+                velocity,
+            } => write!(
+                f,
+                "{parameter} = {slip_distance:.2e} m is far from laboratory experience, 1e-6 to 1e-4 m (Marone 1998), and the load point slides at up to {velocity:.2e} m/s: check that displacements and velocities are in metres"
             ),
             Self::Interrupted { steps, offset } if offset.is_finite() => write!(
                 f,

@@ -1,6 +1,8 @@
 //! Histories of the load point, records and holds.
 
-use stickslip_lab::{Evolution, Healing, LoadHistory, Parameters, Record};
+use stickslip_lab::{Evolution, Fit, Fitted, Healing, LoadHistory, Parameters, Record};
+
+use crate::fits::assert_within;
 
 use crate::{Noise, Outcome, one_state};
 
@@ -121,6 +123,92 @@ fn slide_hold_slide_is_fitted() -> Outcome {
     for estimate in &found.estimates {
         let error = (estimate.value - estimate.parameter.of(&truth)).abs();
         assert!(error <= 4.0 * estimate.standard_error, "{found}");
+    }
+    Ok(())
+}
+
+/// Truth of the fits below.
+fn slow() -> Parameters {
+    Parameters {
+        reference_velocity: 1e-5,
+        ..one_state()
+    }
+}
+
+/// Slides of 30 s, with holds of 30 s and 300 s that creep, and velocities that repeat the last one or differ in the last digit.
+fn creeping(creep: f64, repeated: bool) -> Outcome<LoadHistory> {
+    let last = 1e-5 * (1.0 + f64::EPSILON);
+    let mut changes: Vec<(f64, f64)> = vec![
+        (30.0, creep),
+        (60.0, 1e-5),
+        (90.0, creep),
+        (390.0, 1e-5),
+        (420.0, 1e-6),
+    ];
+    if repeated {
+        let more = [
+            (10.0, 1e-5),
+            (20.0, last),
+            (70.0, last),
+            (80.0, 1e-5),
+            (430.0, 1e-6),
+            (440.0, 1e-6),
+        ];
+        changes.extend(more);
+        changes.sort_by(|one, other| one.0.total_cmp(&other.0));
+    }
+    Ok(LoadHistory::new(1e-5, &changes)?.ending(600.0)?)
+}
+
+/// A fit with velocities that are repeated, exactly or but for the last digit, has the bits of that without.
+#[test]
+fn repeated_velocities_do_not_matter_in_fits() -> Outcome {
+    let plain = creeping(0.0, false)?;
+    let times = plain.samples(150);
+    let clean = slow().curve(&[Evolution::Aging], &plain, &times)?;
+    let record = Record::new(times, Noise::new(9).added_to(&clean, 5e-4))?;
+    let fit = Fit::new(&[Evolution::Aging]);
+    let (one, two) = (
+        fit.run(&record, &plain)?,
+        fit.run(&record, &creeping(0.0, true)?)?,
+    );
+    assert_eq!((&one.estimates, one.work), (&two.estimates, two.work));
+    assert_eq!((&one.warnings, &one.load), (&two.warnings, &two.load));
+    Ok(())
+}
+
+/// Holds that creep at 1e-20 to 1e-9 m/s are holds: the parameters of their records are within four standard errors, as those
+/// without creep, which they tend to.
+#[test]
+fn creep_does_not_matter_in_fits() -> Outcome {
+    let times = creeping(0.0, false)?.samples(150);
+    let fit = Fit::new(&[Evolution::Aging]).with_step_offset();
+    let run = |creep: f64| -> Outcome<Fitted> {
+        let load = creeping(creep, true)?;
+        let clean = slow().curve(&[Evolution::Aging], &load, &times)?;
+        let record = Record::new(times.clone(), Noise::new(9).added_to(&clean, 5e-4))?;
+        Ok(fit.run(&record, &load)?)
+    };
+    let plain = run(0.0)?;
+    for creep in [1e-20, 1e-16, 1e-12, 1e-10, 1e-9, -1e-12, -1e-9] {
+        let found = run(creep)?;
+        assert_within(&found, &slow());
+        let velocities =
+            |fitted: &Fitted| fitted.load.iter().map(|slide| slide.1).collect::<Vec<_>>();
+        assert_eq!(
+            velocities(&found),
+            [1e-5, 0.0, 1e-5, 0.0, 1e-5, 1e-6],
+            "{creep:e}"
+        );
+        for (one, other) in plain.estimates.iter().zip(&found.estimates) {
+            // The creep itself moves the load point by k 300 s, 4.5e-4 of friction at 1e-9 m/s, which the curve has, too.
+            let difference = (one.value - other.value).abs();
+            assert!(
+                difference < 0.3 * one.standard_error,
+                "{creep:e}: {one:?} {other:?}"
+            );
+            assert!((other.standard_error / one.standard_error - 1.0).abs() < 0.1);
+        }
     }
     Ok(())
 }

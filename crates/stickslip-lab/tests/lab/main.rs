@@ -19,6 +19,7 @@ mod oracle;
 mod properties;
 mod refusals;
 mod transients;
+mod units;
 
 use std::error::Error;
 
