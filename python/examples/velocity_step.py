@@ -10,12 +10,12 @@ import stickslip as ss
 
 # Velocity steps at 1, 10 and 3 um/s, each over 0.3 mm, with the noise of a good machine.
 a, b, Dc = 0.008, 0.012, 1.5e-5
-t, mu, load = ss.velocity_step([1e-6, 1e-5, 3e-6], 3e-4, stiffness=1500.0, samples=250, a=a, b=b, Dc=Dc)
+t, mu, load = ss.velocity_step([1e-6, 1e-5, 3e-6], 3e-4, k=1500.0, samples=250, a=a, b=b, Dc=Dc)
 mu = mu + 3e-4 * np.random.default_rng(1).standard_normal(len(t))
 
 # No guess is needed. The stiffness over the normal stress [1/m] is known here; else leave it out.
-aging = ss.fit(t, mu, load=load, stiffness=1500.0, law="aging")
-slip = ss.fit(t, mu, load=load, stiffness=1500.0, law="slip")
+aging = ss.fit(t, mu, load=load, k=1500.0, law="aging")
+slip = ss.fit(t, mu, load=load, k=1500.0, law="slip")
 print(aging)
 print(f"the aging law is preferred by an AIC of {slip.aic - aging.aic:.0f}")
 assert slip.aic > aging.aic

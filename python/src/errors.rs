@@ -289,8 +289,12 @@ pub(crate) fn file(py: Python<'_>, error: &FileError) -> PyErr {
 
 /// The exception of a record that cannot be fitted.
 pub(crate) fn lab(py: Python<'_>, error: &LabError) -> PyErr {
+    let cause = match error {
+        LabError::Record { cause, .. } => cause,
+        _ => error,
+    };
     made((|| {
-        let fields = variant!(py, error, LabError {
+        let fields = variant!(py, cause, LabError {
             Value { what, requirement, position, value },
             Length { what, expected, found },
             States { expected, found },

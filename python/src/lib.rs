@@ -28,7 +28,10 @@ mod _stickslip {
         FaultRun, FaultSimulation, FaultSystem, LineFault, PlaneFault, SeasFiles, SeasTable,
     };
     #[pymodule_export]
-    use super::lab::{FitResult, Healing, fit, healing, slide_hold_slide, velocity_step};
+    use super::lab::{
+        FitResult, Healing, JointFitResult, fit, healing, joint_fit, slide_hold_slide,
+        velocity_step,
+    };
     #[pymodule_export]
     use super::own_laws::{CompiledFriction, CompiledState};
     #[pymodule_export]

@@ -23,8 +23,8 @@ def block() -> ss.Mesh:
 
 def fitted() -> ss.FitResult:
     laws = {"a": 0.008, "b": 0.012, "Dc": 1.5e-5}
-    t, mu, load = ss.velocity_step([1e-6, 1e-5], 3e-4, stiffness=1500.0, **laws)
-    return ss.fit(t, mu, load=load, stiffness=1500.0)
+    t, mu, load = ss.velocity_step([1e-6, 1e-5], 3e-4, k=1500.0, **laws)
+    return ss.fit(t, mu, load=load, k=1500.0)
 
 
 def bottom(mesh: ss.Mesh) -> ss.Part:

@@ -20,7 +20,7 @@ TRUE = {"a": 0.008, "b1": 0.012, "L1": 1.5e-5, "mu0": 0.6}
 def record() -> tuple[np.ndarray, np.ndarray, list[tuple[float, float]]]:
     """Velocity steps with noise."""
     laws = {"a": TRUE["a"], "b": TRUE["b1"], "Dc": TRUE["L1"], "mu0": TRUE["mu0"], "V0": V0}
-    t, mu, load = ss.velocity_step([1e-6, 1e-5, 3e-6], 3e-4, stiffness=STIFFNESS, samples=150, **laws)
+    t, mu, load = ss.velocity_step([1e-6, 1e-5, 3e-6], 3e-4, k=STIFFNESS, samples=150, **laws)
     return t, mu + 1e-3 * np.random.default_rng(4).standard_normal(len(t)), load
 
 
@@ -65,10 +65,10 @@ def seconds(work: Callable[[], object]) -> float:
 
 def test_a_fit_by_scipy_has_the_same_optimum_and_takes_longer() -> None:
     t, mu, load = record()
-    ours = ss.fit(t, mu, load=load, stiffness=STIFFNESS, V0=V0)
+    ours = ss.fit(t, mu, load=load, k=STIFFNESS, V0=V0)
     theirs: dict[str, float] = {}
     slow = seconds(lambda: theirs.update(fitted(t, mu, load)))
-    fast = min(seconds(lambda: ss.fit(t, mu, load=load, stiffness=STIFFNESS, V0=V0)) for _ in range(5))
+    fast = min(seconds(lambda: ss.fit(t, mu, load=load, k=STIFFNESS, V0=V0)) for _ in range(5))
     for name in TRUE:
         print(f"{name}: {ours[name]:.12g}, SciPy {theirs[name]:.12g}, {ours[name] / theirs[name] - 1.0:.1e}")
         assert ours[name] == pytest.approx(theirs[name], rel=1e-6), name

@@ -23,8 +23,8 @@ HUGE = [10**12, 2**62, 2**64 - 1]
         (lambda n: ss.Mesh.grid([1.0, 1.0], [n, n]), "cells"),
         (lambda n: ss.Mesh.grid([1.0, 1.0, 1.0], [n, 1, 1]), "cells"),
         (lambda n: SQUARE.refined(n), "levels"),
-        (lambda n: ss.velocity_step([1e-6, 1e-5], 3e-4, stiffness=1500.0, samples=n, **LAWS), "samples"),
-        (lambda n: ss.slide_hold_slide(1e-6, [10.0], 3e-4, stiffness=1500.0, samples=n, **LAWS), "samples"),
+        (lambda n: ss.velocity_step([1e-6, 1e-5], 3e-4, k=1500.0, samples=n, **LAWS), "samples"),
+        (lambda n: ss.slide_hold_slide(1e-6, [10.0], 3e-4, k=1500.0, samples=n, **LAWS), "samples"),
     ],
 )
 def test_memory_that_cannot_be_had_is_an_error(call: object, named: str, count: int) -> None:
@@ -40,7 +40,7 @@ def test_planes_that_are_dense_down_dip_count_their_rows() -> None:
 
 @pytest.mark.parametrize("count", [0, 3, 2**62])
 def test_states_of_fits_are_one_or_two(count: int) -> None:
-    t, mu, load = ss.velocity_step([1e-6, 1e-5], 3e-4, stiffness=1500.0, **LAWS)
+    t, mu, load = ss.velocity_step([1e-6, 1e-5], 3e-4, k=1500.0, **LAWS)
     with pytest.raises(ValueError, match="states"):
         ss.fit(t, mu, load=load, states=count)
 

@@ -17,7 +17,7 @@ LINE = {"ends": [0.0, 1e3], "cells": 8, **MEDIUM}
 PLANE = {"along_strike": [-1e3, 1e3], "down_dip": [0.0, 1e3], "cells": [4, 2], **MEDIUM}
 BODY = {"E": 5e7, "nu": 0.3, "density": 5e3}
 CONTACT = {"normal_stress": 1e3, "a": 0.01, "b": 0.015, "Dc": 1e-3, "theta": 1.0}
-STEP = {"stiffness": 1e3, "a": 0.01, "b": 0.015, "Dc": 1e-5}
+STEP = {"k": 1e3, "a": 0.01, "b": 0.015, "Dc": 1e-5}
 
 Wrong = tuple[Callable[..., object], dict[str, object], str]
 

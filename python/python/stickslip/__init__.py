@@ -15,6 +15,7 @@ from ._stickslip import (
     FaultSystem,
     FitResult,
     Healing,
+    JointFitResult,
     LineFault,
     Mesh,
     Part,
@@ -27,11 +28,13 @@ from ._stickslip import (
 from ._stickslip import __version__ as __version__
 from ._stickslip import fit as _fit
 from ._stickslip import healing as _healing
+from ._stickslip import joint_fit as _joint_fit
 from ._stickslip import slide_hold_slide as _slide_hold_slide
 from ._stickslip import velocity_step as _velocity_step
 
 fit = _named(_fit)
 healing = _named(_healing)
+joint_fit = _named(_joint_fit)
 slide_hold_slide = _named(_slide_hold_slide)
 velocity_step = _named(_velocity_step)
 
@@ -55,6 +58,7 @@ __all__ = [
     "FitResult",
     "FrictionLawError",
     "Healing",
+    "JointFitResult",
     "LineFault",
     "Mesh",
     "MeshError",
@@ -70,6 +74,7 @@ __all__ = [
     "StickslipError",
     "fit",
     "healing",
+    "joint_fit",
     "slide_hold_slide",
     "velocity_step",
 ]

@@ -1,7 +1,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Protocol, final
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypedDict, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -157,7 +157,9 @@ class FitResult:
         lag_one: float,
         effective_samples: float,
         spikes: Sequence[tuple[float, float]],
+        interrupted: bool,
         warnings: Sequence[str],
+        load: Sequence[tuple[float, float]],
         t: Array,
         mu: Array,
         residuals: Array,
@@ -189,7 +191,11 @@ class FitResult:
     @property
     def spikes(self) -> list[tuple[float, float]]: ...
     @property
+    def interrupted(self) -> bool: ...
+    @property
     def warnings(self) -> list[str]: ...
+    @property
+    def load(self) -> list[tuple[float, float]]: ...
     @property
     def t(self) -> Array: ...
     @property
@@ -201,6 +207,59 @@ class FitResult:
     def to_frame(self) -> DataFrame: ...
     def _repr_html_(self) -> str: ...
     def __getitem__(self, name: str, /) -> float: ...
+
+@final
+class JointFitResult:
+    def __new__(
+        cls,
+        *,
+        parameters: Parameters,
+        errors: Parameters,
+        correlation: Array,
+        a_minus_b: tuple[float, float],
+        aic: float,
+        interrupted: bool,
+        warnings: Sequence[str],
+        records: Sequence[FitResult],
+        text: str,
+    ) -> Self: ...
+    @property
+    def parameters(self) -> Parameters: ...
+    @property
+    def errors(self) -> Parameters: ...
+    @property
+    def correlation(self) -> Array: ...
+    @property
+    def a_minus_b(self) -> tuple[float, float]: ...
+    @property
+    def aic(self) -> float: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def records(self) -> list[FitResult]: ...
+    @property
+    def text(self) -> str: ...
+    def to_frame(self) -> DataFrame: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, name: str, /) -> float: ...
+    def _repr_html_(self) -> str: ...
+
+class _Friction(TypedDict):
+    mu: ArrayLike
+
+class _Record(_Friction, total=False):
+    t: ArrayLike | None
+    load: Sequence[tuple[float, float]] | None
+    displacement: ArrayLike | None
+    resolution: float | None
+    steps_at: Sequence[tuple[float, float]] | None
+    k: float | None
+    stiffness: float | None
+    normal_stress: float | None
+    window: tuple[float, float] | None
+    weights: ArrayLike | None
 
 @final
 class Healing:
@@ -221,15 +280,18 @@ class Healing:
     def _repr_html_(self) -> str: ...
 
 def fit(
-    t: ArrayLike,
+    t: ArrayLike | None,
     mu: ArrayLike,
     *,
     load: Sequence[tuple[float, float]] | None = None,
     displacement: ArrayLike | None = None,
     resolution: float | None = None,
+    steps_at: Sequence[tuple[float, float]] | None = None,
     law: str | Sequence[str] = "aging",
     states: int = 1,
+    k: float | None = None,
     stiffness: float | None = None,
+    normal_stress: float | None = None,
     window: tuple[float, float] | None = None,
     trend: str | None = None,
     weights: ArrayLike | None = None,
@@ -242,19 +304,35 @@ def fit(
     bounds: Mapping[str, tuple[float, float]] = {},
     guess: Mapping[str, float] = {},
 ) -> FitResult: ...
+def joint_fit(
+    records: Sequence[_Record],
+    *,
+    law: str | Sequence[str] = "aging",
+    states: int = 1,
+    trend: str | None = None,
+    free_initial_state: bool = False,
+    loss: str = "squares",
+    step_offset: bool = False,
+    V0: float | None = None,
+    free: Sequence[str] = [],
+    fixed: Mapping[str, float] = {},
+    bounds: Mapping[str, tuple[float, float]] = {},
+    guess: Mapping[str, float] = {},
+) -> JointFitResult: ...
 def healing(
-    t: ArrayLike,
+    t: ArrayLike | None,
     mu: ArrayLike,
     *,
     load: Sequence[tuple[float, float]] | None = None,
     displacement: ArrayLike | None = None,
     resolution: float | None = None,
+    steps_at: Sequence[tuple[float, float]] | None = None,
 ) -> Healing: ...
 def velocity_step(
     velocities: Sequence[float],
     displacement: float,
     *,
-    stiffness: float,
+    k: float | None = None,
     a: float,
     b: float,
     Dc: float,
@@ -262,13 +340,15 @@ def velocity_step(
     V0: float = 1e-6,
     law: str = "aging",
     samples: int = 200,
+    stiffness: float | None = None,
+    normal_stress: float | None = None,
 ) -> tuple[Array, Array, list[tuple[float, float]]]: ...
 def slide_hold_slide(
     velocity: float,
     durations: Sequence[float],
     displacement: float,
     *,
-    stiffness: float,
+    k: float | None = None,
     a: float,
     b: float,
     Dc: float,
@@ -276,6 +356,8 @@ def slide_hold_slide(
     V0: float = 1e-6,
     law: str = "aging",
     samples: int = 200,
+    stiffness: float | None = None,
+    normal_stress: float | None = None,
 ) -> tuple[Array, Array, list[tuple[float, float]]]: ...
 
 @final

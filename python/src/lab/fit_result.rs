@@ -29,7 +29,7 @@ pub(crate) struct FitResult {
     a_minus_b: (f64, f64),
     /// Weighted root mean square of the residuals.
     #[pyo3(get)]
-    rms: f64,
+    pub(super) rms: f64,
     /// Akaike's information criterion: of fits of the same data, the smaller one is preferred.
     #[pyo3(get)]
     aic: f64,
@@ -45,9 +45,15 @@ pub(crate) struct FitResult {
     /// Samples far beside their neighbours: pairs (time [s], data minus model).
     #[pyo3(get)]
     spikes: Vec<(f64, f64)>,
+    /// Whether the fit was interrupted: the parameters are the best so far, which are no minimum.
+    #[pyo3(get)]
+    interrupted: bool,
     /// What the data do not determine, a sentence each.
     #[pyo3(get)]
     warnings: Vec<String>,
+    /// Slides and holds of the load point, as given or read from displacements: pairs (time [s], velocity [m/s] from then on).
+    #[pyo3(get)]
+    load: Vec<(f64, f64)>,
     /// Times of the samples [s].
     t: Vec<f64>,
     /// Coefficient of friction of the model at the samples.
@@ -91,7 +97,9 @@ impl FitResult {
             spikes: (fitted.spikes.iter())
                 .map(|spike| (spike.time, spike.residual))
                 .collect(),
+            interrupted: fitted.interrupted,
             warnings: fitted.warnings.iter().map(ToString::to_string).collect(),
+            load: fitted.load.clone(),
             t: record.times().to_vec(),
             mu: fitted.friction.clone(),
             residuals: fitted.residuals.clone(),
@@ -129,7 +137,7 @@ fn values(fitted: &Fitted) -> Vec<(String, f64)> {
 impl FitResult {
     #[new]
     #[pyo3(signature = (*, parameters, errors, values, correlation, a_minus_b, rms, aic, correlated_errors, lag_one,
-                        effective_samples, spikes, warnings, t, mu, residuals, laws, text))]
+                        effective_samples, spikes, interrupted, warnings, load, t, mu, residuals, laws, text))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         parameters: Py<PyAny>,
@@ -143,7 +151,9 @@ impl FitResult {
         lag_one: f64,
         effective_samples: f64,
         spikes: Vec<(f64, f64)>,
+        interrupted: bool,
         warnings: Vec<String>,
+        load: Vec<(f64, f64)>,
         t: Vec<f64>,
         mu: Vec<f64>,
         residuals: Vec<f64>,
@@ -162,7 +172,9 @@ impl FitResult {
             lag_one,
             effective_samples,
             spikes,
+            interrupted,
             warnings,
+            load,
             t,
             mu,
             residuals,
@@ -203,7 +215,7 @@ impl FitResult {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, own) = (slf.py(), slf.get());
         let given = fields!(py, own; parameters, errors, values, correlation, a_minus_b, rms, aic, correlated_errors,
-            lag_one, effective_samples, spikes, warnings, laws, text);
+            lag_one, effective_samples, spikes, interrupted, warnings, load, laws, text);
         for curve in ["t", "mu", "residuals"] {
             given.set_item(curve, slf.getattr(curve)?)?;
         }

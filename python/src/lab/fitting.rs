@@ -3,28 +3,33 @@
 use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
-use stickslip::lab::{Fit, Loss, Parameter, Record, Trend};
+use pyo3::types::PyDict;
+use stickslip::lab::Experiment;
 
 use super::fit_result::FitResult;
-use super::history::{Names, history, refused};
-use crate::arguments::positive;
-use crate::errors::argument;
-use crate::exit::Call;
+use super::given::{Given, Measured};
+use super::joint_result::JointFitResult;
+use super::names::{Names, refused};
+use super::options::Options;
+use super::watch::Watch;
 
 /// Fits rate- and state-dependent friction to a record of velocity steps and holds. No guess is needed.
 ///
 ///     mu = mu0 + a ln(V/V0) + sum b_i ln(V0 theta_i/L_i),    dmu/dt = k (V_lp - V)
 ///
 /// Args:
-///     t: times [s], ascending.
+///     t: times [s], ascending; None with steps_at.
 ///     mu: measured coefficient of friction, one per time.
 ///     load: pairs (time [s], velocity of the load point [m/s] from then on), 0 in a hold; the first time is ignored.
 ///     displacement: measured displacement of the load point [m], one per time, in the place of load.
 ///     resolution: of the displacement gauge [m]: the velocities between samples that meet all displacements to within
 ///         it; by default the least-squares polygon with as few corners as the noise of the displacement defends.
+///     steps_at: pairs (displacement [m], velocity of the load point [m/s] from there on), with displacement and t=None where no
+///         time was recorded: the times are those of the velocities; the first displacement is ignored.
 ///     law: "aging", "slip", "perrin-rice-zheng", "kato-tullis" or "nagata", or a list with one per state.
 ///     states: 1 or 2.
-///     stiffness: k = K/normal stress [1/m]; fitted if it is None.
+///     k: K/normal stress [1/m], the stiffness of machine and sample over the normal stress; fitted if it is None.
+///     stiffness, normal_stress: K [Pa/m] and [Pa], both, in the place of k.
 ///     window: (from, to) [s]; it begins while the load point moves.
 ///     trend: None, "time" or "displacement": a linear trend is fitted, too.
 ///     weights: of the squares of residuals, one per time.
@@ -44,29 +49,34 @@ use crate::exit::Call;
 ///
 /// Raises:
 ///     FitError: for records that cannot be fitted, and fits without a minimum.
+///     KeyboardInterrupt: after Ctrl-C. Its attribute partial is the FitResult of the best parameters so far, with interrupted
+///         set; None before there are any.
 #[pyfunction]
-#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None, law=Names::One("aging".to_owned()),
-                    states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=false,
-                    loss="squares", step_offset=false, V0=None, free=vec![],
+#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None, steps_at=None, law=Names::One("aging".to_owned()),
+                    states=1, k=None, stiffness=None, normal_stress=None, window=None, trend=None, weights=None,
+                    free_initial_state=false, loss="squares".to_owned(), step_offset=false, V0=None, free=vec![],
                     fixed=BTreeMap::new(), bounds=BTreeMap::new(), guess=BTreeMap::new()),
-       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, loss='squares', step_offset=False, V0=None, free=[], fixed={}, bounds={}, guess={})")]
+       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, steps_at=None, law='aging', states=1, k=None, stiffness=None, normal_stress=None, window=None, trend=None, weights=None, free_initial_state=False, loss='squares', step_offset=False, V0=None, free=[], fixed={}, bounds={}, guess={})")]
 #[expect(non_snake_case, reason = "names of the field")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn fit(
     py: Python<'_>,
-    t: Vec<f64>,
+    t: Option<Vec<f64>>,
     mu: Vec<f64>,
     load: Option<Vec<(f64, f64)>>,
     displacement: Option<Vec<f64>>,
     resolution: Option<f64>,
+    steps_at: Option<Vec<(f64, f64)>>,
     law: Names,
     states: usize,
+    k: Option<f64>,
     stiffness: Option<f64>,
+    normal_stress: Option<f64>,
     window: Option<(f64, f64)>,
-    trend: Option<&str>,
+    trend: Option<String>,
     weights: Option<Vec<f64>>,
     free_initial_state: bool,
-    loss: &str,
+    loss: String,
     step_offset: bool,
     V0: Option<f64>,
     free: Vec<String>,
@@ -74,68 +84,113 @@ pub(crate) fn fit(
     bounds: BTreeMap<String, (f64, f64)>,
     guess: BTreeMap<String, f64>,
 ) -> PyResult<FitResult> {
-    let load = history(py, &t, load, displacement, resolution)?;
-    let mut record = refused(py, Record::new(t, mu))?;
-    if let Some(weights) = weights {
-        record = refused(py, record.with_weights(weights))?;
-    }
-    if let Some((from, to)) = window {
-        if from.is_nan() || to.is_nan() || from >= to {
-            return Err(argument("window", "a pair (from, to) in order", (from, to)));
-        }
-        record = record.window(from, to);
-    }
-    let mut fit = Fit::new(&law.laws(states)?);
-    let mut given = Vec::new();
-    if let Some(stiffness) = stiffness {
-        fit = fit.with_stiffness(positive("stiffness", stiffness)?);
-        given.push(Parameter::Stiffness);
-    }
-    fit = match trend {
-        None => fit,
-        Some("time") => fit.with_trend(Trend::Time),
-        Some("displacement") => fit.with_trend(Trend::Displacement),
-        Some(other) => {
-            let names = "None, \"time\" or \"displacement\"";
-            return Err(argument("trend", names, other));
-        }
+    let options = Options {
+        law,
+        states,
+        trend,
+        free_initial_state,
+        loss,
+        step_offset,
+        reference_velocity: V0,
+        free,
+        fixed,
+        bounds,
+        guess,
     };
-    if free_initial_state {
-        fit = fit.with_free_initial_state();
-    }
-    fit = match loss {
-        "squares" => fit,
-        "huber" => fit.with_loss(Loss::Huber),
-        other => return Err(argument("loss", "\"squares\" or \"huber\"", other)),
+    let given = Given {
+        t,
+        mu,
+        load,
+        displacement,
+        resolution,
+        steps_at,
+        k,
+        stiffness,
+        normal_stress,
+        window,
+        weights,
     };
-    if step_offset {
-        fit = fit.with_step_offset();
+    let Measured { record, load, k } = given.read(py)?;
+    let mut fit = options.fit(py, k.is_some())?;
+    if let Some(k) = k {
+        fit = fit.with_stiffness(k);
     }
-    if let Some(velocity) = V0 {
-        fit = fit.with_reference_velocity(velocity);
-    }
-    for name in &free {
-        fit = fit.with_free(refused(py, name.parse::<Parameter>())?);
-    }
-    let mut parameter = |what: &'static str, name: &str| {
-        let parameter = refused(py, name.parse::<Parameter>())?;
-        if given.contains(&parameter) {
-            let once = "a parameter that is given once: by stiffness, fixed or bounds";
-            return Err(argument(what, once, name));
+    Watch::new().run(
+        py,
+        |ends| fit.clone().with_interrupt(ends).run(&record, &load),
+        |fitted| FitResult::of(py, &record, &refused(py, fitted)?),
+    )
+}
+
+/// Fits several records at once: they share a, b and L of each state and the parameters of state laws. Each has its own
+/// stiffness, mu0, trend, step offset and beginning, and counts by its noise.
+///
+/// Args:
+///     records: dicts with the arguments t, mu, load, displacement, resolution, steps_at, k, stiffness, normal_stress, window
+///         and weights of fit: {"t": t, "mu": mu, "load": load}.
+///     law, states, trend, free_initial_state, loss, step_offset, V0, free, fixed, bounds, guess: as of fit; those of a
+///         parameter that each record has are for each. V0 is by default the first velocity of the first record.
+///
+/// Returns:
+///     JointFitResult: shared parameters, those of records, standard errors, correlations; print it.
+///
+/// Raises:
+///     FitError, KeyboardInterrupt: as fit does; partial is a JointFitResult.
+#[pyfunction]
+#[pyo3(signature = (records, *, law=Names::One("aging".to_owned()),
+                    states=1, trend=None,
+                    free_initial_state=false, loss="squares".to_owned(), step_offset=false, V0=None, free=vec![],
+                    fixed=BTreeMap::new(), bounds=BTreeMap::new(), guess=BTreeMap::new()),
+       text_signature = "(records, *, law='aging', states=1, trend=None, free_initial_state=False, loss='squares', step_offset=False, V0=None, free=[], fixed={}, bounds={}, guess={})")]
+#[expect(non_snake_case, reason = "names of the field")]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn joint_fit(
+    py: Python<'_>,
+    records: Vec<Bound<'_, PyDict>>,
+    law: Names,
+    states: usize,
+    trend: Option<String>,
+    free_initial_state: bool,
+    loss: String,
+    step_offset: bool,
+    V0: Option<f64>,
+    free: Vec<String>,
+    fixed: BTreeMap<String, f64>,
+    bounds: BTreeMap<String, (f64, f64)>,
+    guess: BTreeMap<String, f64>,
+) -> PyResult<JointFitResult> {
+    let options = Options {
+        law,
+        states,
+        trend,
+        free_initial_state,
+        loss,
+        step_offset,
+        reference_velocity: V0,
+        free,
+        fixed,
+        bounds,
+        guess,
+    };
+    let read = |record: &Bound<'_, PyDict>| Given::by_name(record)?.read(py);
+    let measured: Vec<Measured> = records.iter().map(read).collect::<PyResult<_>>()?;
+    let stiff = measured.iter().any(|measured| measured.k.is_some());
+    let fit = options.fit(py, stiff)?;
+    let experiments = measured.iter().map(|measured| {
+        let experiment = Experiment::new(&measured.record, &measured.load);
+        match measured.k {
+            Some(k) => experiment.with_stiffness(k),
+            None => experiment,
         }
-        given.push(parameter);
-        Ok(parameter)
-    };
-    for (name, value) in &fixed {
-        fit = fit.with_fixed(parameter("fixed", name)?, *value);
-    }
-    for (name, (low, high)) in &bounds {
-        fit = fit.with_bounds(parameter("bounds", name)?, *low, *high);
-    }
-    for (name, value) in &guess {
-        fit = fit.with_guess_of(refused(py, name.parse::<Parameter>())?, *value);
-    }
-    let call = Call::begin()?;
-    let fitted = call.detach(py, || fit.run(&record, &load));
-    FitResult::of(py, &record, &refused(py, fitted)?)
+    });
+    let experiments: Vec<_> = experiments.collect();
+    Watch::new().run(
+        py,
+        |ends| fit.clone().with_interrupt(ends).run_joint(&experiments),
+        |fitted| {
+            let fitted = refused(py, fitted)?;
+            let records = measured.iter().map(|measured| &measured.record);
+            JointFitResult::of(py, records, &fitted)
+        },
+    )
 }

@@ -4,7 +4,8 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use stickslip::lab::{Healing as Read, Record};
 
-use super::history::{history, refused};
+use super::given::history;
+use super::names::refused;
 use crate::plain::{Reduced, fields, helper, ranges, reduced};
 
 /// The holds of a record: arrays with one entry per hold, and the healing rate.
@@ -69,18 +70,19 @@ impl Healing {
 /// Reads peaks and healing rate of a slide-hold-slide record, without a model.
 ///
 /// Args:
-///     t, mu, load, displacement, resolution: as of fit.
+///     t, mu, load, displacement, resolution, steps_at: as of fit.
 #[pyfunction]
-#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None))]
+#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None, steps_at=None))]
 pub(crate) fn healing(
     py: Python<'_>,
-    t: Vec<f64>,
+    t: Option<Vec<f64>>,
     mu: Vec<f64>,
     load: Option<Vec<(f64, f64)>>,
     displacement: Option<Vec<f64>>,
     resolution: Option<f64>,
+    steps_at: Option<Vec<(f64, f64)>>,
 ) -> PyResult<Healing> {
-    let load = history(py, &t, load, displacement, resolution)?;
+    let (t, load) = history(py, t, (load, steps_at), (displacement, resolution))?;
     let record = refused(py, Record::new(t, mu))?;
     let read = refused(py, Read::of(&record, &load))?;
     let holds = &read.holds;
