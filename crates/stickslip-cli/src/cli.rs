@@ -9,6 +9,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{Arg, Command, Parser};
 
+use crate::interrupt::{self, Interrupted};
 use crate::{unused, words};
 
 /// Any error that ends a program.
@@ -17,7 +18,7 @@ pub type Problem = Box<dyn Error>;
 /// A program that does not do what is asked: its exit status, and a message of one line.
 #[derive(Clone, Debug)]
 pub struct Refusal {
-    /// 2 for an invalid command line, 1 for a program that failed.
+    /// 2 for an invalid command line, 1 for a program that failed, 130 for one that was interrupted.
     pub status: u8,
     /// Why, in one line.
     pub message: String,
@@ -45,7 +46,11 @@ pub fn answer<A: Parser>(
     program: impl FnOnce(&A) -> Result<(), Problem>,
 ) -> Result<(), Refusal> {
     program(&arguments(words)?).map_err(|problem| Refusal {
-        status: 1,
+        status: if problem.is::<Interrupted>() {
+            interrupt::STATUS
+        } else {
+            1
+        },
         message: format!("error: {}", one_line(words::message(&*problem).lines())),
     })
 }

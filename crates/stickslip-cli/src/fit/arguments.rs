@@ -49,9 +49,13 @@ pub struct Arguments {
     /// The number of states [default: one per --law]
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=2))]
     pub states: Option<u8>,
-    /// The stiffness over the normal stress [1/m], or free
-    #[arg(long, default_value = "free", value_parser = stiffness)]
-    pub stiffness: Stiffness,
+    /// Fit all files and windows at once: they share a, b and L of each state and parameters of state laws; each has its own
+    /// stiffness, mu0, trend, step offset and beginning, and counts by its noise
+    #[arg(long)]
+    pub joint: bool,
+    /// The stiffness over the normal stress [1/m], or free; or one per file
+    #[arg(long, default_value = "free", value_delimiter = ',', value_parser = stiffness)]
+    pub stiffness: Vec<Stiffness>,
     /// The reference velocity V0 [m/s] [default: that of the load point at the first sample]
     #[arg(long, value_name = "VELOCITY", value_parser = positive)]
     pub reference_velocity: Option<f64>,

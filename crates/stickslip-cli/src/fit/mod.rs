@@ -1,6 +1,7 @@
 //! Fits of laboratory experiments: command line, tables and pictures.
 
 mod arguments;
+mod fits;
 mod report;
 mod run;
 mod settings;

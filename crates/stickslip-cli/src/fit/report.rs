@@ -36,7 +36,7 @@ pub(super) fn table(
     for parameter in &parameters {
         columns += &format!(",{parameter},{parameter}_error");
     }
-    columns += ",a_minus_b,a_minus_b_error,rms,aic,warnings,error";
+    columns += ",a_minus_b,a_minus_b_error,rms,aic,interrupted,warnings,error";
     let rows = jobs.iter().zip(fits).map(|(job, fit)| {
         let times = job.record.times();
         let (from, to) = job.window.unwrap_or((times[0], times[times.len() - 1]));
@@ -57,11 +57,14 @@ pub(super) fn table(
                 row.extend([difference, error, fitted.rms, fitted.aic].map(number));
                 let warnings = fitted.warnings.iter().map(ToString::to_string);
                 let warnings: Vec<_> = job.note().into_iter().chain(warnings).collect();
+                row.push(fitted.interrupted.to_string().into());
                 row.extend([warnings.join("; "), String::new()].map(Cell::from));
             }
             Err(error) => {
                 row.push("".into());
                 row.extend(vec![number(f64::NAN); 2 * parameters.len() + 4]);
+                let interrupted = *error == LabError::Interrupted;
+                row.push(interrupted.to_string().into());
                 row.extend([String::new(), error.to_string()].map(Cell::from));
             }
         }
@@ -71,7 +74,7 @@ pub(super) fn table(
         let mut row: Vec<Cell> = ["NaN", "NaN", "0", ""].map(Cell::from).into();
         row.insert(0, unread.file.as_str().into());
         row.extend(vec![number(f64::NAN); 2 * parameters.len() + 4]);
-        row.extend(["", unread.error.as_str()].map(Cell::from));
+        row.extend(["false", "", unread.error.as_str()].map(Cell::from));
         row
     });
     output.table(TABLE, &columns, rows.chain(others))
@@ -110,7 +113,9 @@ pub(super) fn summary(job: &Job, fit: &Result<Fitted, LabError>) -> Value {
         "window": job.window,
         "samples": fitted.residuals.len(),
         "dropped_rows": job.dropped,
+        "interrupted": fitted.interrupted,
         "laws": fitted.laws,
+        "load_point": fitted.load,
         "reference_velocity": fitted.parameters.reference_velocity,
         "stiffness": fitted.parameters.stiffness,
         "parameters": fitted.estimates.iter().map(estimate).collect::<Vec<_>>(),

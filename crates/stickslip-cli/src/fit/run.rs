@@ -2,32 +2,27 @@
 //!
 //! ```text
 //! stickslip fit steps.csv --columns time,friction --steps 0:1e-6,100:1e-5,150:1e-6 --stiffness 1500
+//! stickslip fit soft.csv stiff.csv --joint --stiffness 900,4000
 //! stickslip fit run.csv --law slip --states 2 --window 0:600 --window 600:1200 --detrend displacement
 //! ```
 
 use stickslip::lab::Healing;
 
 use super::Arguments;
-use super::report::{HOLDS, SUMMARY, TABLE, curve, print_holds, summary, table, write_holds};
+use super::fits::{Fits, validate};
+use super::report::{HOLDS, SUMMARY, TABLE, curve, print_holds, table, write_holds};
 use super::settings::Unread;
 use crate::cli::Problem;
 
 /// Fits all files and windows.
 ///
 /// # Errors
-/// In one line: a wrong setting or table, a fit that fails, a file that cannot be written.
+/// In one line: a wrong setting or table, a fit that fails or is interrupted, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let laws = arguments.laws()?;
-    let (jobs, mut unread) = arguments.jobs()?;
+    let (mut jobs, mut unread) = arguments.jobs()?;
     let fit = arguments.fit(&laws);
-    let mut jobs = jobs;
-    jobs.retain(|job| match fit.validate(&job.record, &job.load) {
-        Ok(()) => true,
-        Err(error) => {
-            unread.push(Unread::of(job, &error));
-            false
-        }
-    });
+    validate(arguments, &fit, &mut jobs, &mut unread)?;
     let mut holds = Vec::new();
     for job in jobs.iter().filter(|_| arguments.holds) {
         match Healing::of(&job.record, &job.load) {
@@ -45,46 +40,32 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
         }
     }
     let output = arguments.output.create("fit", &[TABLE, SUMMARY])?;
-    let fits: Vec<_> = jobs
-        .iter()
-        .map(|job| fit.run(&job.record, &job.load))
-        .collect();
-    for (number, (job, fitted)) in jobs.iter().zip(&fits).enumerate() {
+    let fits = Fits::new(arguments, &fit, &jobs)?;
+    for (number, (job, fitted)) in jobs.iter().zip(&fits.each).enumerate() {
         if let Ok(fitted) = fitted {
             curve(&output, &format!("fit-{}", number + 1), job, fitted)?;
         }
     }
-    table(&output, &jobs, &fits, &unread)?;
-    let summaries = jobs.iter().zip(&fits).map(|(job, fit)| summary(job, fit));
-    let others = unread.iter().map(Unread::summary);
-    output.json(SUMMARY, &summaries.chain(others).collect::<Vec<_>>())?;
+    table(&output, &jobs, &fits.each, &unread)?;
+    output.json(SUMMARY, &fits.summary(&jobs, &unread))?;
     let mut written = vec![TABLE, SUMMARY, "fit-N.csv", "fit-N.png"];
     if arguments.holds {
         write_holds(&output, &holds)?;
         written.push(HOLDS);
     }
-    for (number, (job, fitted)) in jobs.iter().zip(&fits).enumerate() {
-        if let Ok(fitted) = fitted {
-            if jobs.len() > 1 {
-                say!("\n{}. {}", number + 1, job.name())?;
-            }
-            say!("{fitted}")?;
-            if let Some(note) = job.note() {
-                say!("{note}")?;
-            }
-        }
-    }
+    fits.print(&jobs)?;
     if arguments.holds {
         say!("")?;
         print_holds(&holds)?;
     }
     say!("{}", output.told(&written))?;
-    let failed = (jobs.iter().zip(&fits))
+    fits.check_interrupt()?;
+    let failed = (jobs.iter().zip(&fits.each))
         .filter_map(|(job, fit)| Some(format!("{}: {}", job.name(), fit.as_ref().err()?)));
     let failed: Vec<String> = failed
         .chain(unread.iter().map(|unread| unread.error.clone()))
         .collect();
-    let count = fits.len() + unread.len();
+    let count = fits.each.len() + unread.len();
     match &failed[..] {
         [] => Ok(()),
         [error] if count == 1 => Err(error.clone().into()),

@@ -1,9 +1,9 @@
 //! From a command line to records, load histories and the fit.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use stickslip::lab::{Evolution, Fit, LabError, LoadHistory, Parameter, Record};
+use stickslip::lab::{Evolution, Experiment, Fit, LabError, LoadHistory, Parameter, Record};
 
 use super::arguments::{Arguments, Stiffness};
 use crate::cli::Problem;
@@ -91,9 +91,6 @@ impl Arguments {
         for &(parameter, value) in &self.fix {
             fit = fit.with_fixed(parameter, value);
         }
-        if let Stiffness::Fixed(stiffness) = self.stiffness {
-            fit = fit.with_stiffness(stiffness);
-        }
         if let Some(detrend) = self.detrend {
             fit = fit.with_trend(detrend.trend());
         }
@@ -109,12 +106,30 @@ impl Arguments {
         fit
     }
 
+    /// The experiment of a file, with the stiffness of its machine if it is known.
+    pub(super) fn machine<'j>(&self, job: &'j Job) -> Experiment<'j> {
+        let experiment = Experiment::new(&job.record, &job.load);
+        let same = |file: &PathBuf| file.display().to_string() == job.file;
+        let place = self.files.iter().position(same).unwrap_or(0);
+        match self.stiffness.get(place).or(self.stiffness.first()) {
+            Some(Stiffness::Fixed(stiffness)) => experiment.with_stiffness(*stiffness),
+            _ => experiment,
+        }
+    }
+
     /// The files and their windows, and the files that cannot be fitted.
     pub(super) fn jobs(&self) -> Result<(Vec<Job>, Vec<Unread>), Problem> {
         for &(parameter, _) in &self.fix {
-            if parameter == Parameter::Stiffness && self.stiffness != Stiffness::Free {
+            if parameter == Parameter::Stiffness && self.stiffness != [Stiffness::Free] {
                 return Err("--fix k and --stiffness are given".into());
             }
+        }
+        let (machines, files) = (self.stiffness.len(), self.files.len());
+        if machines != 1 && machines != files {
+            return Err(format!(
+                "--stiffness: {machines} values for {files} files; give one, or one per file"
+            )
+            .into());
         }
         let (mut jobs, mut unread) = (Vec::new(), Vec::new());
         for file in &self.files {

@@ -2,6 +2,7 @@
 
 mod crack;
 mod fit;
+mod fit_jointly;
 mod killed;
 mod pipes;
 mod refusals;
