@@ -77,7 +77,9 @@ pub(crate) fn warnings(
     let relative = fitted.standard_error(Parameter::A) / parameters.a;
     let (difference, error) = fitted.a_minus_b;
     let vague = relative > 0.1 && error < 0.1 * relative * parameters.a;
-    if vague || levels::aic(model).is_some_and(|aic| aic < fitted.aic + EVIDENCE) {
+    let levels =
+        || !fitted.interrupted && levels::aic(model).is_some_and(|aic| aic < fitted.aic + EVIDENCE);
+    if vague || levels() {
         warnings.push(Warning::OnlyDifference {
             a_minus_b: difference,
             standard_error: error,
@@ -92,10 +94,11 @@ pub(crate) fn warnings(
         .iter()
         .fold(0.0_f64, |most, (_, v)| most.max(*v));
     for (i, state) in parameters.states.iter().enumerate() {
-        let slip_distance = state.slip_distance;
-        if !(EXPERIENCE.0 / BEYOND..=EXPERIENCE.1 * BEYOND).contains(&slip_distance) {
+        let (parameter, slip_distance) = (Parameter::SlipDistance(i), state.slip_distance);
+        let determined = 2.0 * fitted.standard_error(parameter) <= slip_distance;
+        if determined && !(EXPERIENCE.0 / BEYOND..=EXPERIENCE.1 * BEYOND).contains(&slip_distance) {
             warnings.push(Warning::Unit {
-                parameter: Parameter::SlipDistance(i),
+                parameter,
                 slip_distance,
                 velocity: fastest,
             });

@@ -32,7 +32,7 @@ pub(crate) struct PartEnd {
 }
 
 impl Search<'_> {
-    /// The end at a minimum. One that was interrupted has no tests of further parameters, and no errors of the gauge.
+    /// The end at a minimum. One that was interrupted has no tests of further parameters, no errors of the gauge and no spikes.
     ///
     /// # Errors
     /// That of the curves.
@@ -55,7 +55,10 @@ impl Search<'_> {
                 residual.clone(),
                 jacobian.columns(0, model.free.len()).into_owned(),
             ),
-            None => model.linearised(&minimum.parameters, FINE, &mut self.course)?,
+            None => match &minimum.linearised {
+                Some(here) => here.clone(),
+                None => model.linearised(&minimum.parameters, FINE, &mut self.course)?,
+            },
         };
         let residual = linearised.0.as_slice();
         let weighted = model.weighted();
@@ -87,7 +90,7 @@ impl Search<'_> {
                 end.tests = std::mem::take(tests);
             }
             end.residuals = self.residuals(number, minimum, &residual[rows.clone()])?;
-            if !end.exact {
+            if !(end.exact || interrupted) {
                 let known = gauge.as_ref().map(|gauge| gauge.deviations.clone());
                 let known = known.unwrap_or_else(|| vec![0.0; rows.len()]);
                 let part = &model.parts[number];

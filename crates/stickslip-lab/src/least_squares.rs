@@ -47,6 +47,8 @@ pub(crate) struct Minimum {
     pub(crate) flat: bool,
     /// The damping of the next step.
     pub(crate) damping: f64,
+    /// The residuals and derivatives there, of an iteration that was interrupted.
+    pub(crate) linearised: Option<Linearised>,
 }
 
 impl Minimum {
@@ -59,6 +61,7 @@ impl Minimum {
             offset: f64::INFINITY,
             flat: false,
             damping: 0.0,
+            linearised: None,
         }
     }
 }
@@ -117,6 +120,7 @@ pub(crate) fn minimize(
             offset: if exact { 0.0 } else { offset },
             flat,
             damping,
+            linearised: None,
         };
         let flat = exact || stalled >= STALLED_STEPS;
         if offset <= stop.offset || flat {
@@ -156,7 +160,11 @@ pub(crate) fn minimize(
                 break;
             }
             if interrupted {
-                return Ok(minimum(at, parameters, steps, damping, false));
+                let here = Some(at.clone());
+                return Ok(Minimum {
+                    linearised: here,
+                    ..minimum(at, parameters, steps, damping, false)
+                });
             }
             damping *= raise;
             raise *= RAISE;

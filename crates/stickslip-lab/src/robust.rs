@@ -57,6 +57,8 @@ impl<'a> Search<'a> {
                 Err(LabError::Interrupted) => Minimum::at_start(begin),
                 end => end?,
             };
+            // They have other weights.
+            minimum.linearised = None;
             if search.steps == 0 || self.course.is_interrupted() {
                 return Ok((minimum, noise));
             }

@@ -139,19 +139,19 @@ impl Block<'_> {
     /// `J^T R J` with `R = c^|i - j|`: each row with the sum over those before, which decays by `c` a row.
     fn correlated(&self, correlation: f64) -> DMatrix<f64> {
         let count = self.jacobian.ncols();
-        let mut sum = vec![0.0; count];
+        let (mut row, mut before) = (vec![0.0; count], vec![0.0; count]);
         let mut product = DMatrix::zeros(count, count);
         for &n in &self.rows {
-            for j in 0..count {
-                let row_j = self.jacobian[(n, j)];
-                for i in 0..count {
-                    let row_i = self.jacobian[(n, i)];
-                    product[(i, j)] +=
-                        row_i * (row_j + correlation * sum[j]) + correlation * sum[i] * row_j;
+            for (row, column) in row.iter_mut().zip(self.jacobian.column_iter()) {
+                *row = column[n];
+            }
+            for (j, mut column) in product.column_iter_mut().enumerate() {
+                for (i, entry) in column.iter_mut().enumerate() {
+                    *entry += row[i] * (row[j] + before[j]) + before[i] * row[j];
                 }
             }
-            for (k, sum) in sum.iter_mut().enumerate() {
-                *sum = correlation * *sum + self.jacobian[(n, k)];
+            for (before, row) in before.iter_mut().zip(&row) {
+                *before = correlation * (*before + row);
             }
         }
         product

@@ -85,7 +85,7 @@ pub enum Warning {
         /// The fall of the criterion, in the linear approximation.
         aic: f64,
     },
-    /// `L` is ten times beyond the laboratory's experience, 1 to 100 um: are displacements and velocities in metres? The data
+    /// `L` is determined, and ten times beyond the laboratory's experience, 1 to 100 um: are displacements and velocities in metres? The data
     /// cannot tell: with lengths in another unit the same curve has `L`, `1/k` and velocities in that unit. Source: C. Marone,
     /// "Laboratory-derived friction laws and their application to seismic faulting", Annu. Rev. Earth Planet. Sci. 26 (1998).
     Unit {

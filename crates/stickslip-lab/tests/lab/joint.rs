@@ -89,6 +89,7 @@ fn joint_fits_have_the_truth_with_its_errors() -> Outcome {
             }
         }
         let rms = squares.map(f64::sqrt);
+        println!("{correlation}: {rms:.2?}");
         assert!(
             rms.iter().all(|z| (0.7..1.3).contains(z)),
             "{correlation}: {rms:?}"
