@@ -3,6 +3,7 @@
 mod coverage;
 mod curves;
 mod errors;
+mod evolution_fits;
 mod evolutions;
 mod fits;
 mod gauges;

@@ -3,6 +3,7 @@
 
 mod agreement;
 mod experiments;
+mod laboratory;
 mod problem;
 mod refusals;
 mod scene_parts;
