@@ -154,6 +154,19 @@ impl Evolution {
                 let requirement = "\"cut-off\" for law=\"nagata\"";
                 Err(argument("friction", requirement, "another one"))
             }
+            // Their theta is 2 Dc/V in steady sliding.
+            (Self::PerrinRiceZheng(law), Friction::CutOff(parameters)) => {
+                Ok(Friction::CutOff(DieterichRuina {
+                    slip_distance: 2.0 * law.slip_distance,
+                    ..parameters
+                }))
+            }
+            (Self::PerrinRiceZheng(law), Friction::Regularized(parameters)) => {
+                Ok(Friction::Regularized(RegularizedDieterichRuina {
+                    slip_distance: 2.0 * law.slip_distance,
+                    ..parameters
+                }))
+            }
             (_, friction) => Ok(friction),
         }
     }

@@ -94,11 +94,13 @@ def test_fits_run_in_threads() -> None:
 
 def test_laws_by_name_are_those_of_the_slider() -> None:
     # Velocity steps of a slider with the same laws, quasi-static.
-    for law in ["aging", "slip"]:
-        t, mu, load = ss.velocity_step([1e-6, 5e-6, 2e-6], 2e-4, k=3000.0, law=law, samples=100, **LAWS)
-        run = ss.SpringSlider(3e9, 1e6, law=law, load=load, **LAWS).run(t[-1], rtol=1e-9)
-        # Linear interpolation between the steps.
-        assert np.abs(np.interp(t, run.t, run.mu) - mu).max() < 2e-5, law
+    further = {"kato-tullis": {"Vc": 1e-8}, "nagata": {"c": 2.0}}
+    for law in ["aging", "slip", "perrin-rice-zheng", "kato-tullis", "nagata"]:
+        laws = {**LAWS, "a": 0.03, "b": 0.033} if law == "nagata" else LAWS
+        t, mu, load = ss.velocity_step([1e-6, 5e-6, 2e-6], 2e-4, k=3000.0, law=law, samples=100, **laws)
+        slider = ss.SpringSlider(3e9, 1e6, law=law, load=load, **laws, **further.get(law, {}))
+        run = slider.run(t[-1], rtol=1e-9, t_eval=t)
+        assert np.abs(run.mu - mu).max() < 1e-7, law
 
 
 def test_parameters_of_laws_are_fitted_by_name() -> None:
