@@ -4,7 +4,7 @@ use stickslip::friction::DieterichRuina;
 use stickslip::lab::{Evolution, LoadHistory, Parameters};
 use stickslip::problems::spring_slider::{FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{KatoTullis, PerrinRiceZheng};
-use stickslip::{Run, RungeKutta, SceneError, Snapshot, Steps};
+use stickslip::{RungeKutta, SceneError, Snapshot, Steps};
 
 use crate::Outcome;
 
