@@ -41,7 +41,7 @@ const WITH_LAWS: &[&str] = &["slider", "spring-slider", "gmsh"];
 const A_STATE: &str = "friction with a state: another --law or --friction";
 const INERTIA: &str = "a body that is driven, without --compression";
 
-const RULES: [Rule; 14] = [
+const RULES: [Rule; 16] = [
     of_a_state("b"),
     of_a_state("slip_distance"),
     of_a_state("reference_velocity"),
@@ -91,6 +91,8 @@ const RULES: [Rule; 14] = [
         unused: |given| !given.has("driven"),
         is_for: "the opposite of a driven part: add --driven",
     },
+    of_measured("resolution"),
+    of_measured("initial_velocity"),
     of_inertia("density"),
     of_inertia("no_gravity"),
 ];
@@ -101,6 +103,15 @@ const fn of_a_state(argument: &'static str) -> Rule {
         argument,
         unused: |given| given.is_stateless(),
         is_for: A_STATE,
+    }
+}
+
+const fn of_measured(argument: &'static str) -> Rule {
+    Rule {
+        commands: &["fit"],
+        argument,
+        unused: |given| given.has("steps") || given.has("steps_at"),
+        is_for: "a measured displacement, without --steps and --steps-at",
     }
 }
 

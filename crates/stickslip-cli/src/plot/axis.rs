@@ -157,7 +157,12 @@ mod tests {
 
     /// The number of a label.
     fn read(label: &str) -> f64 {
-        let (mantissa, exponent) = label.split_once("·10").unwrap_or((label, ""));
+        let is_digit = |c: char| c.is_ascii_digit() || c == '.';
+        let power = label
+            .strip_prefix("10")
+            .filter(|rest| !rest.is_empty() && !rest.contains(is_digit));
+        let factors = power.map(|power| ("1", power)).or(label.split_once("·10"));
+        let (mantissa, exponent) = factors.unwrap_or((label, ""));
         let digit = |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|other| other == c);
         let exponent: String = exponent
             .chars()

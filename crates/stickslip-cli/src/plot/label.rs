@@ -19,16 +19,46 @@ pub(super) fn scientific(value: f64, decimals: usize) -> String {
         _ => mantissa,
     };
     let exponent = exponent.parse().unwrap_or(0);
-    format!("{}·10{}", mantissa.replace('-', MINUS), raised(exponent))
+    match mantissa {
+        "0" | "-0" => "0".into(),
+        "1" => format!("10{}", raised(exponent)),
+        _ => format!("{}·10{}", mantissa.replace('-', MINUS), raised(exponent)),
+    }
 }
 
 /// A positive number of at most three digits, by a power of ten unless it is near 1.
 pub(super) fn rounded(value: f64) -> String {
     let text = format!("{value:.2e}");
     let value: f64 = text.parse().unwrap_or(value);
-    if (1e-2..1e4).contains(&value) {
+    if (1e-3..1e4).contains(&value) {
         return value.to_string();
     }
     let digits = text.split('e').next().unwrap_or_default();
     scientific(value, digits.trim_end_matches('0').len().saturating_sub(2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_of_ten_are_raised() {
+        let labels = [
+            (0.0, "0"),
+            (1e-5, "10⁻⁵"),
+            (-2e-5, "−2·10⁻⁵"),
+            (1.5e12, "1.5·10¹²"),
+        ];
+        for (value, label) in labels {
+            assert_eq!(scientific(value, 1), label);
+        }
+        for (value, label) in [
+            (0.005, "0.005"),
+            (250.0, "250"),
+            (5e-4, "5·10⁻⁴"),
+            (1.25e-7, "1.25·10⁻⁷"),
+        ] {
+            assert_eq!(rounded(value), label);
+        }
+    }
 }

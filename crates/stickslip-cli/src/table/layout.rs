@@ -52,7 +52,7 @@ pub(super) struct Layout {
 }
 
 /// The lines by which a layout is judged.
-const JUDGED: usize = 1000;
+pub(super) const JUDGED: usize = 1000;
 
 impl Layout {
     /// The layout in which most cells of the lines are numbers and fewest text, and the number of cells of the rows of
@@ -84,7 +84,7 @@ impl Layout {
         best.map(|(_, layout, width)| (layout, width))
     }
 
-    /// The numbers less the texts in rows of one width, and that width without cells at the end that are always empty:
+    /// The numbers less the texts beside them in rows of one width, and that width without cells at the end that are always empty:
     /// of the width with most.
     fn score(&self, lines: &[&str]) -> Option<(i64, usize)> {
         #[derive(Default)]
@@ -96,16 +96,19 @@ impl Layout {
         let mut widths = BTreeMap::<usize, Rows>::new();
         for record in self.records(lines) {
             let rows = widths.entry(record.len()).or_default();
+            let (mut numbers, mut texts) = (0, 0);
             for (k, text) in record.iter().enumerate() {
                 match self.cell(text) {
                     Cell::Empty => continue,
-                    Cell::Text => rows.score -= 1,
-                    Cell::Number(_) => {
-                        rows.score += 1;
-                        rows.numbers += 1;
-                    }
+                    Cell::Text => texts += 1,
+                    Cell::Number(_) => numbers += 1,
                 }
                 rows.used = rows.used.max(k + 1);
+            }
+            // Texts alone are names or a preamble.
+            if numbers > 0 {
+                rows.numbers += numbers;
+                rows.score += numbers - texts;
             }
         }
         let rows = widths.into_values().filter(|rows| rows.numbers > 0);

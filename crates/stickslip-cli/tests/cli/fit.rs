@@ -139,3 +139,41 @@ fn wrong_input_of_a_fit_is_one_line() -> Outcome {
     assert!(!folder.join("out").exists());
     Ok(())
 }
+
+/// A file of a batch that cannot be read is a row of the table, with its error; rows with empty cells are dropped and
+/// counted.
+#[test]
+fn a_bad_file_of_a_batch_is_a_row() -> Outcome {
+    let folder = folder("fit-batch")?;
+    let text = fs::read_to_string(data())?;
+    let gaps = text.replace("5.000,5.00,0.59947", "5.000,5.00,");
+    assert_ne!(gaps, text);
+    let [bad, gappy] = ["bad.csv", "gappy.csv"].map(|name| folder.join(name));
+    fs::write(&bad, text.replace("0.60087", "much"))?;
+    fs::write(&gappy, gaps)?;
+    let output = (program("fit").arg(&bad).arg(data()).arg(&gappy))
+        .args(["--displacement-unit", "1e-6", "--out"])
+        .arg(folder.join("out"))
+        .output()?;
+    assert_eq!(output.status.code(), Some(1));
+    let error = String::from_utf8(output.stderr)?;
+    let error = error.lines().last().ok_or("no error")?;
+    assert!(error.contains("1 of 3 fits failed"), "{error}");
+    let told = String::from_utf8(output.stdout)?;
+    assert!(
+        told.contains("1 row with an empty cell was dropped"),
+        "{told}"
+    );
+    let table = fs::read_to_string(folder.join("out/fits.csv"))?;
+    let rows: Vec<&str> = table.lines().collect();
+    assert_eq!(rows.len(), 4, "{table}");
+    let failed = rows[3];
+    assert!(
+        failed.contains("bad.csv, line 3, cell 3 (friction): `much`"),
+        "{failed}"
+    );
+    let summary: Value = serde_json::from_slice(&fs::read(folder.join("out/summary.json"))?)?;
+    assert_eq!(summary[1]["dropped_rows"], 1);
+    assert!(summary[2]["error"].is_string(), "{summary}");
+    Ok(())
+}

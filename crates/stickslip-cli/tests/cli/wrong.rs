@@ -90,7 +90,7 @@ const SPRING: [Wrong; 17] = [
     ("spring-slider --b 0.5", "add mass or radiation damping"),
 ];
 
-const FIT: [Wrong; 24] = [
+const FIT: [Wrong; 25] = [
     ("fit", "FILE"),
     ("fit none.csv", "none.csv"),
     ("fit Cargo.toml", "Cargo.toml, line 1, cell 1"),
@@ -118,6 +118,10 @@ const FIT: [Wrong; 24] = [
     ("fit DATA --law slip,aging,slip", "--law"),
     ("fit DATA --displacement-unit 0", "--displacement-unit"),
     ("fit DATA --stiffness 0", "--stiffness"),
+    (
+        "fit DATA --steps 0:1e-6,60:1e-5 --resolution 1e-8",
+        "--resolution is not used here",
+    ),
 ];
 
 const OTHERS: [Wrong; 37] = [

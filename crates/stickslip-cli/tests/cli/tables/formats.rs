@@ -178,6 +178,16 @@ pub(super) fn cases() -> Vec<Case> {
             NAMES,
         ),
         text("typographic minus", comma.replace('-', "\u{2212}"), NAMES),
+        text(
+            "LabVIEW",
+            format!(
+                "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t,\n***End_of_Header***\t\n\t\n\
+                 {}\tComment\n{}",
+                names("\t"),
+                written(with_comma, "\t", "\t\n")
+            ),
+            NAMES,
+        ),
         text("blank lines", comma.replace('\n', "\n\n"), NAMES),
         text("another case", comma.replace("time", "TIME"), NAMES),
     ]
