@@ -12,10 +12,25 @@ pub(super) enum Cell {
 }
 
 /// Marks of missing values.
-const MISSING: [&str; 5] = ["nan", "na", "n/a", "null", "none"];
+const MISSING: [&str; 7] = [
+    "na",
+    "n/a",
+    "null",
+    "none",
+    "-nan(ind)",
+    "1.#qnan",
+    "-1.#ind",
+];
 
 /// Reads a cell, whose decimals follow this sign.
 pub(super) fn cell(text: &str, decimal: char) -> Cell {
+    // Most cells are as this program writes them.
+    if decimal == '.'
+        && let Ok(value) = text.parse::<f64>()
+        && !value.is_nan()
+    {
+        return Cell::Number(value);
+    }
     let text = text.trim().trim_matches(['"', '\'']).trim();
     if text.is_empty() || MISSING.iter().any(|mark| text.eq_ignore_ascii_case(mark)) {
         return Cell::Empty;
@@ -26,7 +41,11 @@ pub(super) fn cell(text: &str, decimal: char) -> Cell {
     }
     let plain = text.parse().ok().filter(|_| !text.contains(','));
     let number = plain.or_else(|| rewritten(text, decimal)?.parse().ok());
-    number.map_or(Cell::Text, Cell::Number)
+    match number {
+        Some(value) if f64::is_nan(value) => Cell::Empty,
+        Some(value) => Cell::Number(value),
+        None => Cell::Text,
+    }
 }
 
 /// A number as other programs write it, in the signs of this one: a decimal comma, the minus of typesetters, and the
@@ -92,7 +111,7 @@ mod tests {
         }
         assert_eq!(cell("1,5", '.'), Cell::Text);
         assert_eq!(cell("0.15-103", '.'), Cell::Number(0.15e-103));
-        for text in ["", "NaN", " n/a "] {
+        for text in ["", "NaN", "-nan", "-nan(ind)", " n/a "] {
             assert_eq!(cell(text, '.'), Cell::Empty, "{text}");
         }
     }
