@@ -1,16 +1,17 @@
 //! Errors as exceptions: a class per enum, the variant as `kind`, its numbers as attributes.
 
 mod arguments;
+mod hints;
 
 use arguments::argument_of;
 pub(crate) use arguments::{Bare, argument, misfit, of_argument};
+use hints::{RTOL, hint_of_scene, hint_of_step, worded};
 
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use stickslip::bie::KernelError;
 use stickslip::fem::ReadError;
 use stickslip::friction::FrictionViolation;
-use stickslip::integrate::Limit;
 use stickslip::lab::LabError;
 use stickslip::record::FileError;
 use stickslip::state::{StateError, StateLawViolation};
@@ -39,53 +40,6 @@ fn name(error: &impl std::fmt::Debug) -> String {
     let debug = format!("{error:?}");
     let end = debug.find(|c: char| !c.is_alphanumeric());
     debug[..end.unwrap_or(debug.len())].to_owned()
-}
-
-/// What to try after a scene was refused, in words of this module; `None` for the words of the library.
-fn hint_of_scene(error: &SceneError) -> Option<&'static str> {
-    Some(match error {
-        SceneError::Start(cause) => return hint_of_step(cause),
-        SceneError::Coincident { .. } => "merge them or take one wall",
-        SceneError::OpenWalls(_) => "give its sides a contact",
-        SceneError::Unbalanced { .. } => "change rate, state or stress, or give no slip rate",
-        SceneError::Normal { .. } => "make the surfaces that meet there contacts of their own",
-        SceneError::NotPaired { .. } => "use `name+` and `name-` of Mesh.split",
-        SceneError::NoBasis { .. } => "align contacts and fixed parts with the axes",
-        _ => return None,
-    })
-}
-
-/// What to try if a tolerance cannot be met.
-const RTOL: &str = "raise rtol";
-
-/// What to try after a failed step, in words of this module; `None` for the words of the library.
-fn hint_of_step(error: &StepError) -> Option<&'static str> {
-    Some(match error {
-        StepError::Data { what: "load", .. } => "check functions of time, and plate rates",
-        StepError::Tension { .. } => {
-            "allow_opening=True lets it open, unless its normal motion is prescribed or contacts meet there that do not \
-             all open along one normal"
-        }
-        StepError::TooManySteps {
-            limit: Limit::Error(_),
-            ..
-        } => "raise max_steps or rtol",
-        StepError::TooManySteps {
-            limit: Limit::Stability(_),
-            ..
-        } => "raise max_steps; larger cells and more normal stress allow longer steps",
-        StepError::Stage { .. } => "reduce dt, or give rtol for steps by error control",
-        StepError::NotCoupled { .. } => "reduce dt or use coupling=\"monolithic\"",
-        _ => return None,
-    })
-}
-
-/// A message with a hint of this module in place of that of the library.
-fn worded(message: String, library: Option<&str>, own: Option<&str>) -> String {
-    match (library, own) {
-        (Some(library), Some(own)) => message.replace(library, own),
-        _ => message,
-    }
 }
 
 /// An exception of a class of `stickslip`.

@@ -262,3 +262,17 @@ def test_a_bar_opens_under_tension_and_closes() -> None:
         top = 1e-3 * at.time * (2.0 - at.time)
         assert at.contacts[0].opening == pytest.approx(max(top, 0.0), abs=1e-5)
         assert at.contacts[0].normal_stress == pytest.approx(max(-0.5 * top, 0.0), abs=1e-5)
+
+
+def test_shear_stress_of_a_contact_has_a_sign() -> None:
+    for sign in (1.0, -1.0):
+        mesh = ss.Mesh.grid([1.0, 1.0], [4, 4])
+        body = ss.Body(mesh, E=5e7, nu=0.3, density=5e3)
+        body.drive(mesh.part(lambda x: x[1] == 1.0), [sign * 1e-2, 0.0])
+        friction = {"normal_stress": 1e3, "a": 0.02, "b": 0.01, "Dc": 1e-3, "theta": 1.0}
+        body.contact(mesh.part(lambda x: x[1] == 0.0), **friction)
+        contact = list(body.simulation().run(until=1.0, rtol=1e-4))[-1].contacts[0]
+        assert contact.shear_stress.shape == (5, 2)
+        assert (np.sign(contact.shear_stress[:, 0]) == sign).all()
+        assert np.abs(contact.shear_stress[:, 0]) == pytest.approx(contact.mu * 1e3, rel=1e-6)
+        assert contact.shear_stress[:, 1] == pytest.approx(0.0, abs=1e-9)

@@ -1,6 +1,7 @@
 """A hundred wrong inputs: each is an error that names its argument, in words of Python, at once."""
 
 import math
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -242,6 +243,8 @@ RUST = ["::", "Py", "PerVertex", "Vec<", "f64", "usize", "variant", "unwrap", "p
 
 @pytest.mark.parametrize(("call", "wrong", "named"), WRONG)
 def test_wrong_inputs_are_named(call: Callable[..., object], wrong: dict[str, object], named: str) -> None:
+    if call is fit and sys.version_info < (3, 11):
+        pytest.skip("the binding names arguments of functions by notes, which are newer")
     begun = time.monotonic()
     with pytest.raises((ValueError, TypeError, AttributeError)) as refused:
         call(**wrong)

@@ -149,8 +149,12 @@ def fault_map(
     ax = _axes(ax)
     logarithmic = field in ("V", "theta")
     (left, right), (top, bottom) = fault.along_strike, fault.down_dip
+    shown = np.log10(_modulus(values)) if logarithmic else values
+    low, high = _limits(shown, 0.1 if logarithmic else 1e-3 * np.abs(shown).max())
     picture = ax.imshow(
-        np.log10(_modulus(values)) if logarithmic else values,
+        shown,
+        vmin=low,
+        vmax=high,
         extent=(left * 1e-3, right * 1e-3, bottom * 1e-3, top * 1e-3),
         aspect="equal",
         interpolation="nearest",
@@ -160,6 +164,13 @@ def fault_map(
     times, name = _time(np.asarray([0.0, run.t[sample]]))
     ax.set(xlabel="along strike [km]", ylabel="down dip [km]", title=f"{name[:4]} {times[1]:.4g} {name[6:-1]}")
     return ax
+
+
+def _limits(values: Any, least: float) -> tuple[float, float]:
+    """The range of a colour scale, at least so wide: noise of a uniform field has no colours."""
+    low, high = np.nanmin(values), np.nanmax(values)
+    wider = max(0.5 * (least - (high - low)), 0.0)
+    return float(low - wider), float(high + wider)
 
 
 def fit(result: FitResult, t: ArrayLike | None = None, mu: ArrayLike | None = None) -> Any:

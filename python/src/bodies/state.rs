@@ -42,12 +42,16 @@ pub(crate) struct ContactState {
     opening: Py<PyArray1<f64>>,
     /// Coefficient of friction.
     mu: Py<PyArray1<f64>>,
+    /// Shear stress of the body on the surface, or of the plus side on the minus side [Pa], one row per vertex with the
+    /// components of a velocity: in the direction of slip.
+    shear_stress: Py<PyArray2<f64>>,
 }
 
 #[pymethods]
 impl ContactState {
     #[new]
-    #[pyo3(signature = (*, vertices, slip, slip_rate, theta, normal_stress, opening, mu))]
+    #[pyo3(signature = (*, vertices, slip, slip_rate, theta, normal_stress, opening, mu, shear_stress))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         vertices: Py<PyArray1<usize>>,
         slip: Py<PyArray1<f64>>,
@@ -56,6 +60,7 @@ impl ContactState {
         normal_stress: Py<PyArray1<f64>>,
         opening: Py<PyArray1<f64>>,
         mu: Py<PyArray1<f64>>,
+        shear_stress: Py<PyArray2<f64>>,
     ) -> Self {
         Self {
             vertices,
@@ -65,12 +70,14 @@ impl ContactState {
             normal_stress,
             opening,
             mu,
+            shear_stress,
         }
     }
 
     /// A table of pandas with a row per vertex.
     fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let columns = self.fields(py)?;
+        columns.del_item("shear_stress")?;
         if self.theta.is_none() {
             columns.del_item("theta")?;
         }
@@ -93,7 +100,9 @@ impl ContactState {
 
 impl ContactState {
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        Ok(fields!(py, self; vertices, slip, slip_rate, theta, normal_stress, opening, mu))
+        Ok(
+            fields!(py, self; vertices, slip, slip_rate, theta, normal_stress, opening, mu, shear_stress),
+        )
     }
 }
 
@@ -159,7 +168,7 @@ impl BodyState {
     ) -> PyResult<Self> {
         let contacts = at
             .contacts()
-            .map(|contact| Py::new(py, ContactState::of(py, contact, whole)));
+            .map(|contact| Py::new(py, ContactState::of(py, contact, whole)?));
         let fields = whole.map(|whole| whole.fields(at)).transpose();
         let fields = fields.map_err(|error| errors::scene(py, &error))?;
         let (displacement, velocity) = match fields {
@@ -186,7 +195,7 @@ impl ContactState {
         py: Python<'_>,
         contact: ContactView<'_, C>,
         whole: Option<&Whole<C>>,
-    ) -> Self {
+    ) -> PyResult<Self> {
         let count = contact.len();
         let array =
             |value: &dyn Fn(usize) -> f64| PyArray1::from_iter(py, (0..count).map(value)).unbind();
@@ -194,7 +203,8 @@ impl ContactState {
             Some(whole) => whole.vertex(contact.vertex(k)),
             None => contact.vertex(k),
         };
-        Self {
+        let tractions = (0..count).map(|k| contact.traction(k)).collect();
+        Ok(Self {
             vertices: PyArray1::from_iter(py, (0..count).map(vertex)).unbind(),
             slip: array(&|k| contact.slip(k)),
             slip_rate: array(&|k| contact.slip_rate(k)),
@@ -204,6 +214,7 @@ impl ContactState {
             normal_stress: array(&|k| contact.normal_stress(k)),
             opening: array(&|k| contact.opening(k)),
             mu: array(&|k| contact.coefficient(k)),
-        }
+            shear_stress: into_rows(py, tractions)?.unbind(),
+        })
     }
 }
