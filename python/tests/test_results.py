@@ -236,3 +236,19 @@ def test_the_version_is_that_of_the_package() -> None:
         assert version("stickslip") == ss.__version__
     except PackageNotFoundError:
         pass
+
+
+def test_lists_are_as_good_as_tuples() -> None:
+    times = np.arange(0.0, 60.0, 0.1)
+    mu = slider(load=[[0.0, 1e-6], [30.0, 1e-5]]).run(60.0, t_eval=list(times)).mu
+    bounds = {"a": (0.001, 0.1)}
+    tuples = ss.fit(times, mu, load=STEP, window=(0.0, 60.0), bounds=bounds)
+    lists = [list(pair) for pair in STEP]
+    for load in (lists, np.array(lists)):
+        found = ss.fit(list(times), list(mu), load=load, window=[0.0, 60.0], bounds={"a": [0.001, 0.1]})
+        assert found.parameters == tuples.parameters
+    fault, simulation = patch()
+    assert simulation.run(1e3, threshold=[1e-2, 1e-3], stops=(10.0,)).steps > 0
+    plane = ss.PlaneFault((-1e3, 1e3), (0.0, 1e3), (4, 2), **MEDIUM)
+    system = ss.FaultSystem((plane,), strikes=(0.0,), origins=[[0.0, 0.0]])
+    assert len(system) == 8

@@ -1,7 +1,7 @@
 """Rate- and state-dependent friction: spring sliders, faults and laws of your own. Units are SI."""
 
+from ._arguments import named as _named
 from ._errors import ArgumentError, ArgumentTypeError, ArgumentValueError, FaultError, FileError, FitError, FrictionLawError, MeshError, SceneError, StateLawError, StepError, StickslipError
-from ._errors import named as _named
 from ._stickslip import (
     Body,
     BodyRun,

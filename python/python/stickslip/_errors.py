@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-import functools
 import sys
-from collections.abc import Callable
-from typing import Any, TypeVar, cast
-
-Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 class StickslipError(Exception):
@@ -88,22 +83,3 @@ class ArgumentTypeError(ArgumentError, TypeError):
 
 class ArgumentValueError(ArgumentError, ValueError):
     """An argument whose value its type does not have, such as a negative number of cells."""
-
-
-def named(function: Function) -> Function:
-    """A function whose errors of arguments have the name of the argument in their message, not in a note."""
-
-    @functools.wraps(function)
-    def call(*args: Any, **kwargs: Any) -> Any:
-        try:
-            return function(*args, **kwargs)
-        except (TypeError, ValueError, OverflowError) as error:
-            for note in getattr(error, "__notes__", ()):
-                if note.startswith("while processing "):
-                    kind = ArgumentTypeError if isinstance(error, TypeError) else ArgumentValueError
-                    wrong = kind(str(error), "Argument")
-                    wrong.add_note(note)
-                    raise wrong from None
-            raise
-
-    return cast(Function, call)

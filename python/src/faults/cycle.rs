@@ -92,7 +92,7 @@ impl FaultSimulation {
     /// Raises:
     ///     StepError: for a step that fails; the samples up to there are its `partial`.
     ///     OSError: for a file that cannot be written.
-    #[pyo3(signature = (until, *, every=10, rtol=1e-6, max_steps=Some(MAX_STEPS), callback=None, threshold=(1e-2, 1e-3), stops=Numbers(Vec::new()), seas=None, t_eval=None, progress=false),
+    #[pyo3(signature = (until, *, every=10, rtol=1e-6, max_steps=Some(MAX_STEPS), callback=None, threshold=[1e-2, 1e-3], stops=Numbers(Vec::new()), seas=None, t_eval=None, progress=false),
            text_signature = "($self, until, *, every=10, rtol=1e-06, max_steps=2000000, callback=None, threshold=(0.01, 0.001), stops=[], seas=None, t_eval=None, progress=False)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn run(
@@ -103,7 +103,7 @@ impl FaultSimulation {
         #[pyo3(from_py_with = named)] rtol: f64,
         #[pyo3(from_py_with = named)] max_steps: Option<usize>,
         callback: Option<Py<PyAny>>,
-        #[pyo3(from_py_with = named)] threshold: (f64, f64),
+        #[pyo3(from_py_with = named)] threshold: [f64; 2],
         #[pyo3(from_py_with = named)] stops: Numbers,
         #[pyo3(from_py_with = named)] seas: Option<Bound<'_, SeasFiles>>,
         #[pyo3(from_py_with = named)] t_eval: Option<Numbers>,
@@ -119,7 +119,7 @@ impl FaultSimulation {
         }
         let max_steps = max_steps.map(|number| count("max_steps", number));
         let max_steps = max_steps.transpose()?.unwrap_or(usize::MAX);
-        let (begins, ends) = threshold;
+        let [begins, ends] = threshold;
         if positive("threshold[1]", ends)? > positive("threshold[0]", begins)? {
             let requirement = "a pair (begin, end) with end <= begin";
             return Err(argument("threshold", requirement, threshold));

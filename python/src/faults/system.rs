@@ -36,7 +36,7 @@ pub(crate) struct FaultSystem {
     #[pyo3(get)]
     strikes: Vec<f64>,
     #[pyo3(get)]
-    origins: Vec<(f64, f64)>,
+    origins: Vec<[f64; 2]>,
     shear_modulus: f64,
 }
 
@@ -48,7 +48,7 @@ impl FaultSystem {
         py: Python<'_>,
         #[pyo3(from_py_with = named)] planes: Vec<Py<PlaneFault>>,
         #[pyo3(from_py_with = named)] strikes: Vec<f64>,
-        #[pyo3(from_py_with = named)] origins: Vec<(f64, f64)>,
+        #[pyo3(from_py_with = named)] origins: Vec<[f64; 2]>,
     ) -> PyResult<Self> {
         for (name, count) in [("strikes", strikes.len()), ("origins", origins.len())] {
             if count != planes.len() {
@@ -61,10 +61,7 @@ impl FaultSystem {
             }
         }
         let places = strikes.iter().zip(&origins);
-        let places = places.map(|(&strike, &(east, north))| Placement {
-            strike,
-            origin: [east, north],
-        });
+        let places = places.map(|(&strike, &origin)| Placement { strike, origin });
         let (mut fixed, mut free) = (Vec::new(), Vec::new());
         for (plane, place) in planes.iter().zip(places) {
             match plane.get().geometry() {
