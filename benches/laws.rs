@@ -1,4 +1,4 @@
-//! The cost per vertex: the special function, a state step, the local problem of friction, friction of many cells.
+//! The cost per vertex: the special function, a state step, the local problem of friction, laws of many nodes.
 
 mod common;
 
@@ -8,12 +8,11 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use nalgebra::{SMatrix, SVector};
 use stickslip::friction::{
-    CellState, ConvexPotential, EvolutionLaw, FrictionLaw, QuasiDynamicFriction, Radial,
-    RegularizedDieterichRuina, StateDependentTresca, Tresca,
+    ConvexPotential, FrictionLaw, Radial, RegularizedDieterichRuina, StateDependentTresca, Tresca,
 };
 use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::wright::{ln_omega, omega};
-use stickslip::state::{Discontinuous, LogTheta, Ruina, StateLaw, Theta};
+use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw, Theta};
 
 use common::TIME_STEP;
 
@@ -140,42 +139,41 @@ fn local_minimisation<const C: usize>(criterion: &mut Criterion) {
 
 /// Slip rates and rates of the state of a quasi-dynamic fault, at rates from 1e-12 to 10 m/s, half of the cells above
 /// steady state and half below.
-fn many_cells(criterion: &mut Criterion) {
+fn many_nodes(criterion: &mut Criterion) {
     const COUNT: usize = 4000;
-    let damping = 32.04e9 / (2.0 * 3464.0);
+    let viscosity = [32.04e9 / (2.0 * 3464.0) / 50e6; COUNT];
     let law = RegularizedDieterichRuina::from(FRICTION);
     let rate =
         |cell: usize| 10f64.powf(-12.0 + 13.0 * ((7919 * cell) % COUNT) as f64 / COUNT as f64);
-    let alpha: Vec<f64> = (0..COUNT)
-        .map(|cell| (law.slip_distance / rate(cell)).ln() + (cell % 17) as f64 * 0.25 - 2.0)
-        .collect();
-    let normal = vec![50e6; COUNT];
-    let shear: Vec<f64> = (0..COUNT)
-        .map(|cell| {
-            50e6 * law.coefficient(rate(cell), LogTheta(alpha[cell])) + damping * rate(cell)
-        })
-        .collect();
-    let (mut slip_rate, mut state_rate) = (vec![0.0; COUNT], vec![0.0; COUNT]);
-    let mut group = criterion.benchmark_group("many cells");
+    let state = |cell: usize| {
+        LogTheta((law.slip_distance / rate(cell)).ln() + (cell % 17) as f64 * 0.25 - 2.0)
+    };
+    let states: Vec<_> = (0..COUNT).map(state).collect();
+    let drive =
+        |cell: usize| law.coefficient(rate(cell), states[cell]) + viscosity[cell] * rate(cell);
+    let drive: Vec<f64> = (0..COUNT).map(drive).collect();
+    let mut group = criterion.benchmark_group("many nodes");
     group.throughput(Throughput::Elements(COUNT as u64));
-    for (name, evolution) in [
-        ("aging law", EvolutionLaw::Aging),
-        ("slip law", EvolutionLaw::Slip),
-    ] {
-        let laws = [law; COUNT];
-        let friction =
-            QuasiDynamicFriction::new(&laws, damping, CellState::LogTheta, evolution, 1e5)
-                .expect("legal laws");
+    let mut rates = vec![0.0; COUNT];
+    let friction = RegularizedDieterichRuina::slip_rates(&[law; COUNT]).expect("passes");
+    group.bench_function("slip rates", |bencher| {
+        bencher.iter(|| {
+            friction.slip_rates(0, [&viscosity, black_box(&drive)], &states, &mut rates);
+        });
+    });
+    let slip_distance = law.slip_distance;
+    let laws = [
+        (
+            "aging law",
+            Dieterich::evolutions(&[Dieterich { slip_distance }]),
+        ),
+        ("slip law", Ruina::evolutions(&[Ruina { slip_distance }])),
+    ];
+    let slip_rates: Vec<f64> = (0..COUNT).map(rate).collect();
+    for (name, law) in laws {
+        let law = law.expect("passes");
         group.bench_function(name, |bencher| {
-            bencher.iter(|| {
-                friction.rates(
-                    black_box(&shear),
-                    &normal,
-                    &alpha,
-                    &mut slip_rate,
-                    &mut state_rate,
-                );
-            });
+            bencher.iter(|| law.evolutions(0, &states, black_box(&slip_rates), &mut rates));
         });
     }
     group.finish();
@@ -184,7 +182,7 @@ fn many_cells(criterion: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = common::config(0.5).sample_size(20);
-    targets = wright, states, slip_rates, many_cells,
+    targets = wright, states, slip_rates, many_nodes,
         local_minimisation::<1>, local_minimisation::<2>, local_minimisation::<3>
 }
 criterion_main!(benches);

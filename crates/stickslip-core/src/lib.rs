@@ -4,6 +4,8 @@
 //! A generic function is otherwise compiled by each program that calls it, with all that it calls: an engine of some
 //! hundred thousand lines of machine code, at the optimisation level of the program. [`compiled!`] declares functions
 //! whose bodies stand in the declaring crate, one for each number; a call chooses among them.
+//!
+//! [`lanes`] has passes over many numbers, several of them per instruction.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -11,6 +13,8 @@
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+pub mod lanes;
 
 use std::any::Any;
 

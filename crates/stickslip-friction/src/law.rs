@@ -1,8 +1,9 @@
 //! The trait of all friction laws.
 
+use stickslip_state::wright::omega;
 use stickslip_state::{StateVariable, increasing_root};
 
-use crate::{FrictionError, difference::slope_in_state};
+use crate::{FrictionError, SlipRates, difference::slope_in_state};
 
 /// A coefficient of friction and its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,8 +114,8 @@ pub trait FrictionLaw: Send + Sync {
     /// The local problem: the `V` with `viscosity V + mu(V, alpha) = drive`, 0 while it sticks.
     ///
     /// `viscosity > 0` \[s/m\] and `drive >= 0` are stiffness and force over the normal force. The default is a
-    /// bracketed Newton method in `ln V` and then two steps in `V`, which resolve the forces to some units in the last
-    /// place; it is NaN if the coefficient is. An override must be as accurate as 1e-9 relative to `V`:
+    /// bracketed Newton method in `ln V`, from where friction that is linear in it would balance, and then two steps in
+    /// `V`, which resolve the forces to some units in the last place; it is NaN if the coefficient is. An override must be as accurate as 1e-9 relative to `V`:
     /// [`Radial`](crate::Radial) brackets the vector problem with it.
     fn slip_rate(&self, viscosity: f64, drive: f64, state: Self::State) -> f64 {
         let strength = self.coefficient(0.0, state);
@@ -125,27 +126,48 @@ pub trait FrictionLaw: Send + Sync {
         if bound == 0.0 {
             return 0.0;
         }
-        let log_rate = increasing_root(bound.ln().min(709.0), |log_rate| {
+        // To the rounding of the forces, which two steps in `V` resolve.
+        let residual = |(rate, coefficient): (f64, f64)| {
+            let missing = viscosity * rate + coefficient - drive;
+            let resolved = missing.abs() <= f64::EPSILON * drive;
+            if resolved { 0.0 } else { missing }
+        };
+        let start = first_guess(bound, [viscosity, drive], |rate| {
+            self.coefficient_and_rate_slope(rate, state)
+        });
+        let log_rate = increasing_root(start, |log_rate| {
             let rate = log_rate.exp();
             let (coefficient, slope) = self.coefficient_and_rate_slope(rate, state);
-            (
-                viscosity * rate + coefficient - drive,
-                rate * (viscosity + slope),
-            )
+            (residual((rate, coefficient)), rate * (viscosity + slope))
         });
         let mut rate = log_rate.map_or(f64::NAN, f64::exp);
         // The exponential of a rounded logarithm has fewer digits than the rate.
-        let residual = |rate| viscosity * rate + self.coefficient(rate, state) - drive;
-        let mut remaining = residual(rate);
+        let missing = |rate| {
+            let (coefficient, slope) = self.coefficient_and_rate_slope(rate, state);
+            (viscosity * rate + coefficient - drive, viscosity + slope)
+        };
+        let (mut remaining, mut stiffness) = missing(rate);
         for _ in 0..2 {
-            let stiffness = viscosity + self.coefficient_rate_slope(rate, state);
             let polished = rate - remaining / stiffness;
-            let less = residual(polished);
-            if polished > 0.0 && less.abs() < remaining.abs() {
-                (rate, remaining) = (polished, less);
+            if polished == rate {
+                break;
             }
+            let (less, next) = missing(polished);
+            if !(polished > 0.0 && less.abs() < remaining.abs()) {
+                break;
+            }
+            (rate, remaining, stiffness) = (polished, less, next);
         }
         rate
+    }
+
+    /// Passes over the local problems of many nodes, by the laws of the nodes, or by one law of all; `None` for a loop
+    /// over [`slip_rate`](Self::slip_rate). Override it where several nodes can be computed per instruction.
+    fn slip_rates(_laws: &[Self]) -> Option<Box<dyn SlipRates<Self::State>>>
+    where
+        Self: Sized,
+    {
+        None
     }
 
     /// Checks the parameters; called once, when a scene is built.
@@ -155,6 +177,29 @@ pub trait FrictionLaw: Send + Sync {
     /// A parameter outside the range of the law.
     fn validate(&self) -> Result<(), FrictionError> {
         Ok(())
+    }
+}
+
+/// The logarithm of a slip rate near the balance, from one above it: with viscosity as it is, and friction linear in the
+/// logarithm of the rate, as rate- and state-dependent friction nearly is.
+///
+/// ```text
+/// viscosity V + mu + m ln(V/V1) = drive,   m = V1 dmu/dV;   w + ln(w) = ln(viscosity V1/m) + (drive - mu)/m,   V = w m/viscosity
+/// ```
+fn first_guess(
+    bound: f64,
+    [viscosity, drive]: [f64; 2],
+    friction: impl Fn(f64) -> (f64, f64),
+) -> f64 {
+    let bound = bound.min(1e300);
+    let (coefficient, slope) = friction(bound);
+    let along = bound * slope;
+    let rate = along * omega((viscosity * bound / along).ln() + (drive - coefficient) / along);
+    let log_rate = (rate / viscosity).ln();
+    if log_rate.is_finite() {
+        log_rate
+    } else {
+        bound.ln()
     }
 }
 

@@ -26,8 +26,8 @@
 //! [`parts`](TwoStates::parts) are, one for each of two contacts on the same part of the boundary. [`Radial`] turns any
 //! law, with a nodal normal force, into a [`ConvexPotential`] of a velocity vector. A solver evaluates it, linearises
 //! it and minimises it exactly against a quadratic function. [`Sliding`] makes a potential of some components of a
-//! vector, the others free or prescribed. [`QuasiDynamicFriction`] is the regularised law on many cells with radiation
-//! damping, several cells at a time. [`check_friction_law`] and [`check_convex_potential`] check the contracts,
+//! vector, the others free or prescribed. [`SlipRates`] has the slip rates of many nodes at a time, several per
+//! instruction where a law overrides [`FrictionLaw::slip_rates`]. [`check_friction_law`] and [`check_convex_potential`] check the contracts,
 //! [`sample_friction_law`] checks the first quickly.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -46,33 +46,34 @@ mod jacobi;
 mod law;
 mod linear_weakening;
 mod local_problem;
-mod many_cells;
 mod modulus;
 mod nodal;
 mod potential;
 mod radial;
 mod regularized;
 mod sliding;
+mod slip_rates;
 mod state_dependent_tresca;
 mod tresca;
 mod two_states;
 mod unilateral;
 
 pub use conformance::{
-    FrictionViolation, check_convex_potential, check_friction_law, sample_friction_law,
+    FrictionViolation, check_convex_potential, check_friction_law, check_slip_rates,
+    sample_friction_law,
 };
 pub use dieterich_ruina::DieterichRuina;
 pub use error::FrictionError;
 pub use forced_rupture::ForcedRupture;
 pub use law::{FrictionLaw, Response};
 pub use linear_weakening::LinearWeakening;
-pub use many_cells::{CellState, EvolutionLaw, ManyCellsError, QuasiDynamicFriction};
 pub use modulus::modulus;
 pub use nodal::Nodal;
 pub use potential::{ConvexPotential, Interval, LocalModel};
 pub use radial::Radial;
 pub use regularized::RegularizedDieterichRuina;
 pub use sliding::Sliding;
+pub use slip_rates::SlipRates;
 pub use state_dependent_tresca::StateDependentTresca;
 pub use tresca::Tresca;
 pub use two_states::TwoStates;

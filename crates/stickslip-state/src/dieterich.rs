@@ -1,7 +1,8 @@
 //! Dieterich's aging law.
 
 use crate::{
-    LogTheta, StateError, StateLaw,
+    Evolutions, LogTheta, StateError, StateLaw,
+    many_nodes::ManyNodes,
     wright::{lambert, ln_omega, omega},
 };
 
@@ -29,6 +30,10 @@ impl StateLaw for Dieterich {
 
     fn evolution(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
         (-alpha).exp() - slip_rate / self.slip_distance
+    }
+
+    fn evolutions(laws: &[Self]) -> Option<Box<dyn Evolutions<LogTheta>>> {
+        Some(Box::new(ManyNodes::new(laws, |law| law.slip_distance)))
     }
 
     fn evolution_state_slope(&self, LogTheta(alpha): LogTheta, _slip_rate: f64) -> f64 {

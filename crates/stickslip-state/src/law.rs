@@ -1,6 +1,6 @@
 //! The trait of all state laws.
 
-use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
+use crate::{Evolutions, StateError, StateVariable, bracketed::increasing_root, generic};
 
 /// A state law `alpha' = g(alpha, V)` with `g` non-increasing in `alpha`.
 ///
@@ -53,6 +53,15 @@ pub trait StateLaw: Send + Sync {
 
     /// The rate of the state, `g(alpha, V)` \[unit of the state per s\], for `V >= 0` \[m/s\].
     fn evolution(&self, state: Self::State, slip_rate: f64) -> f64;
+
+    /// Passes over the rates of many states, by the laws of their nodes, or by one law of all; `None` for a loop over
+    /// [`evolution`](Self::evolution). Override it where several nodes can be computed per instruction.
+    fn evolutions(_laws: &[Self]) -> Option<Box<dyn Evolutions<Self::State>>>
+    where
+        Self: Sized,
+    {
+        None
+    }
 
     /// `dg/dalpha <= 0` \[1/s\]. It only steers Newton's method: any value is accepted at a jump.
     fn evolution_state_slope(&self, state: Self::State, slip_rate: f64) -> f64;

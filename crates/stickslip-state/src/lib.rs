@@ -41,11 +41,13 @@ mod conformance;
 mod dieterich;
 mod discontinuous;
 mod error;
+mod evolutions;
 mod forward;
 mod generic;
 mod healing_slip_weakening;
 mod kato_tullis;
 mod law;
+mod many_nodes;
 mod nagata;
 mod number;
 mod perrin_rice_zheng;
@@ -57,10 +59,13 @@ mod weakening;
 pub mod wright;
 
 pub use bracketed::increasing_root;
-pub use conformance::{StateLawViolation, Step, check_state_law, sample_state_law};
+pub use conformance::{
+    StateLawViolation, Step, check_evolutions, check_state_law, sample_state_law,
+};
 pub use dieterich::Dieterich;
 pub use discontinuous::Discontinuous;
 pub use error::StateError;
+pub use evolutions::Evolutions;
 pub use healing_slip_weakening::HealingSlipWeakening;
 pub use kato_tullis::KatoTullis;
 pub use law::StateLaw;

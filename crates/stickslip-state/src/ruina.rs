@@ -1,6 +1,6 @@
 //! Ruina's slip law.
 
-use crate::{LogTheta, StateError, StateLaw};
+use crate::{Evolutions, LogTheta, StateError, StateLaw, many_nodes::ManyNodes};
 
 /// Ruina's slip law, `alpha' = -(V/L) (alpha + ln(V/L))`: the state changes only with slip.
 ///
@@ -38,6 +38,10 @@ impl StateLaw for Ruina {
         } else {
             0.0
         }
+    }
+
+    fn evolutions(laws: &[Self]) -> Option<Box<dyn Evolutions<LogTheta>>> {
+        Some(Box::new(ManyNodes::new(laws, |law| law.slip_distance)))
     }
 
     fn evolution_state_slope(&self, _state: LogTheta, slip_rate: f64) -> f64 {

@@ -1,7 +1,11 @@
 //! Checks of nodal data and laws before the first step.
 
-use stickslip_friction::{FrictionError, FrictionLaw, Nodal, sample_friction_law};
-use stickslip_state::{Reads, StateError, StateLaw, StateVariable, sample_state_law};
+use stickslip_friction::{
+    FrictionError, FrictionLaw, Nodal, check_slip_rates, sample_friction_law,
+};
+use stickslip_state::{
+    Reads, StateError, StateLaw, StateVariable, check_evolutions, sample_state_law,
+};
 
 use crate::SceneError;
 
@@ -69,12 +73,34 @@ where
             values().fold(f64::INFINITY, f64::min),
             values().fold(f64::NEG_INFINITY, f64::max),
         ];
-        return extremes.into_iter().try_for_each(|value| {
-            sample(friction.at(0), evolution.at(0), S::State::from_value(value))
-        });
+        for value in extremes {
+            sample(friction.at(0), evolution.at(0), S::State::from_value(value))?;
+        }
+    } else {
+        for k in 0..places.max(states) {
+            sample(friction.at(k), evolution.at(k), *initial.at(k))?;
+        }
     }
-    (0..places.max(states))
-        .try_for_each(|k| sample(friction.at(k), evolution.at(k), *initial.at(k)))
+    many_nodes(friction, evolution, initial)
+}
+
+/// Refuses laws that bring other passes over their nodes than each of them by itself.
+fn many_nodes<L, S>(
+    friction: &Nodal<L>,
+    evolution: &Nodal<S>,
+    initial: &Nodal<S::State>,
+) -> Result<(), SceneError>
+where
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: Reads<S::State>,
+{
+    let count = friction.count().or(evolution.count()).or(initial.count());
+    let states: Vec<_> = (0..count.unwrap_or(1)).map(|k| *initial.at(k)).collect();
+    check_evolutions(evolution.iter().as_slice(), &states)?;
+    let read: Vec<_> = states.into_iter().map(L::State::read).collect();
+    check_slip_rates(friction.iter().as_slice(), &read)?;
+    Ok(())
 }
 
 fn sample<L, S>(friction: &L, evolution: &S, initial: S::State) -> Result<(), SceneError>

@@ -1,6 +1,7 @@
 //! The contracts of friction laws and potentials, as checks of any implementation.
 
 mod coefficient;
+mod many_nodes;
 mod minimizer;
 mod potential;
 mod sample;
@@ -13,6 +14,7 @@ use stickslip_state::StateVariable;
 
 use crate::{ConvexPotential, FrictionError, FrictionLaw};
 
+pub use many_nodes::check_slip_rates;
 pub use sample::sample_friction_law;
 pub use violation::FrictionViolation;
 

@@ -42,8 +42,19 @@ fn check_problem<L: FrictionLaw + ?Sized>(
     viscosity: f64,
     drive: f64,
 ) -> Result<(), FrictionViolation> {
-    let value = state.value();
     let slip_rate = law.slip_rate(viscosity, drive, state);
+    check_solution(law, state, [viscosity, drive], slip_rate, 4.0)
+}
+
+/// Checks that a slip rate solves a local problem to some roundings of its largest force.
+pub(super) fn check_solution<L: FrictionLaw + ?Sized>(
+    law: &L,
+    state: L::State,
+    [viscosity, drive]: [f64; 2],
+    slip_rate: f64,
+    roundings: f64,
+) -> Result<(), FrictionViolation> {
+    let value = state.value();
     let strength = law.coefficient(0.0, state);
     let wrong = |expected| FrictionViolation::SlipRate {
         state: value,
@@ -63,7 +74,7 @@ fn check_problem<L: FrictionLaw + ?Sized>(
             .max(coefficient_terms(law, slip_rate, state));
         let spacing = (4.0 * f64::EPSILON * slip_rate).max(f64::MIN_POSITIVE);
         // Balanced, or as near to the root as numbers are, which also is all there is at rest.
-        residual(slip_rate).abs() <= 4.0 * f64::EPSILON * terms
+        residual(slip_rate).abs() <= roundings * f64::EPSILON * terms
             || residual((slip_rate - spacing).max(0.0)) <= 0.0
                 && residual(slip_rate + spacing) >= 0.0
             || drive <= strength

@@ -5,12 +5,10 @@ mod conformance;
 mod extremes;
 mod falling;
 mod laws;
-mod many_cells;
+mod many_nodes;
 mod radial;
 mod regularized;
 mod sliding;
-#[cfg(feature = "rayon")]
-mod threads;
 mod unilateral;
 mod violations;
 mod weakening;

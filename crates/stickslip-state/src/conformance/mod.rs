@@ -3,6 +3,7 @@
 mod difference;
 mod evolution;
 mod exact;
+mod many_nodes;
 mod sample;
 mod step;
 mod violation;
@@ -10,6 +11,7 @@ mod worst;
 
 use crate::{StateError, StateLaw, StateVariable};
 
+pub use many_nodes::check_evolutions;
 pub use sample::sample_state_law;
 pub use violation::{StateLawViolation, Step};
 

@@ -74,6 +74,21 @@ pub enum StateLawViolation {
         /// The reference value \[1/s\].
         bound: f64,
     },
+    /// A rate of many nodes differs from that of its node by itself.
+    #[error(
+        "the rate of many nodes is {found:e} at state {state:e}, {slip_rate:e} m/s, must be that of evolution, \
+         {expected:e}"
+    )]
+    ManyNodes {
+        /// The value of the state.
+        state: f64,
+        /// The slip rate \[m/s\].
+        slip_rate: f64,
+        /// The rate of [`StateLaw::evolutions`](crate::StateLaw::evolutions).
+        found: f64,
+        /// That of [`StateLaw::evolution`](crate::StateLaw::evolution).
+        expected: f64,
+    },
     /// A step accepts a slip rate or a time step that is negative or NaN.
     #[error("advance accepts the step {step}")]
     Accepts {

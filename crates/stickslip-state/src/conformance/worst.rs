@@ -41,6 +41,9 @@ impl StateLawViolation {
             Self::EvolutionIncreases {
                 at_lower, at_upper, ..
             } => apart(at_lower, at_upper, 0.0),
+            Self::ManyNodes {
+                found, expected, ..
+            } => apart(found, expected, 0.0),
             // Beside a bound of 0 of the wrong sign altogether.
             Self::Slope { slope, bound, .. } => apart(slope, bound, 0.0),
             // States may be logarithms, whose scale is 1.

@@ -16,6 +16,7 @@ mod forced_rupture;
 mod halves;
 mod healing;
 mod jumps;
+mod local_problems;
 mod many_cells;
 mod normal_stress_effect;
 mod runs;

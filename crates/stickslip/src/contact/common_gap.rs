@@ -25,7 +25,9 @@ impl<const C: usize> ContactSet<C> {
                 let place = share.place as usize;
                 let given = contact.body.as_ref().map_or(0.0, |body| body.beside[place]);
                 gap.pull += contact.part.weights[place] * given;
-                contact.bounds[place] = gap.bound;
+                if let Some(opening) = &mut contact.opening {
+                    opening.bounds[place] = gap.bound;
+                }
             }
         }
     }

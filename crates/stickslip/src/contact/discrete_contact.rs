@@ -7,7 +7,7 @@ use stickslip_solvers::Frames;
 use super::fields::Fields;
 use super::shear::check_tangential;
 use super::trial::Vanished;
-use super::{FromBody, Trial};
+use super::{FromBody, Opening, Trial};
 use crate::checks::{finite, length, require};
 use crate::laws::{StateStart, StateStep, change};
 use crate::scene::{AnyContact, Source, Strength};
@@ -25,30 +25,25 @@ pub(crate) struct DiscreteContact<const C: usize> {
     pub(crate) body: Option<FromBody>,
     pub(crate) fields: Option<Box<Fields>>,
     pub(crate) bilateral: bool,
-    /// The positions of the vertices in increasing order; empty if they are in order.
-    order: Vec<u32>,
+    /// The positions of the vertices in increasing order, if they are not in order.
+    order: Option<Vec<u32>>,
     /// Friction depends on the slip rate at constant state.
     pub(crate) reads_rate: bool,
-    /// The outward normals in the local frames if the normal velocity is free; else empty.
-    pub(crate) normals: Vec<SVector<f64, C>>,
-    /// The outward normals in the local frames if the normal stress comes from the body; else empty.
+    /// The outward normals in the local frames, zero where there are none.
     pub(crate) outward: Vec<SVector<f64, C>>,
     /// The areas that bear its reactions: of all contacts at a vertex with this normal [m^(D-1)].
     pub(crate) bearing: Vec<f64>,
-    /// The normal component of each vertex that can open; empty for a contact that cannot.
-    pub(crate) released: Vec<Option<usize>>,
-    /// The normal velocities at which their gaps are closed in the step [m/s].
-    pub(crate) bounds: Vec<f64>,
+    pub(crate) opening: Option<Opening>,
     /// The components in which each vertex slides: those that are normal to no contact there.
     pub(crate) slides: Vec<[bool; C]>,
     /// The normal stress in force, 0 where the contact is open \[Pa\].
     pub(crate) normal_stress: Vec<f64>,
     /// `w abs(sigma_n)` and `w c` \[N\].
     pub(crate) forces: Vec<[f64; 2]>,
-    /// The slip rates of the last evaluation; empty if friction and state do not depend on them [m/s].
-    pub(crate) rates: Vec<f64>,
-    /// The last two differences between the proposed states and those in use, latest last.
-    pub(crate) changes: [Vec<f64>; 2],
+    /// The slip rates of the last evaluation, if friction or the state depends on them [m/s].
+    pub(crate) rates: Option<Vec<f64>>,
+    /// The last two differences between the proposed states and those in use, latest last; none without a state.
+    pub(crate) changes: Option<[Vec<f64>; 2]>,
 }
 
 impl<const C: usize> DiscreteContact<C> {
@@ -102,11 +97,6 @@ impl<const C: usize> DiscreteContact<C> {
             .map(|normal| normal.unwrap_or(SVector::zeros()))
             .collect();
         let outward: Vec<_> = part.vertices.iter().zip(&outward).map(turned).collect();
-        let normals = if bilateral {
-            Vec::new()
-        } else {
-            outward.clone()
-        };
         strength.relaxation.check(&strength)?;
         let body = match strength.source {
             Source::Given => None,
@@ -120,8 +110,6 @@ impl<const C: usize> DiscreteContact<C> {
                  Contact::with_free_normal",
             ));
         }
-        let memory = if trial.has_state() { count } else { 0 };
-        let rates = if trial.may_weaken() { count } else { 0 };
         let normal_stress: Vec<f64> = (0..count)
             .map(|k| strength.normal_stress.at(k).max(0.0))
             .collect();
@@ -129,42 +117,45 @@ impl<const C: usize> DiscreteContact<C> {
             let weight = part.weights[k];
             [weight * normal_stress[k], weight * strength.cohesion.at(k)]
         });
-        let mut order: Vec<u32> = Vec::new();
-        if !part.vertices.is_sorted() {
-            order.extend(0..count as u32);
+        let order = (!part.vertices.is_sorted()).then(|| {
+            let mut order: Vec<u32> = (0..count as u32).collect();
             order.sort_unstable_by_key(|&k| part.vertices[k as usize]);
-        }
+            order
+        });
         Ok(Self {
             order,
             reads_rate: trial.reads_rate(count),
             forces: forces.collect(),
             normal_stress,
             bearing: Vec::new(),
-            released: Vec::new(),
-            bounds: Vec::new(),
+            opening: None,
             slides: vec![[true; C]; count],
-            rates: vec![0.0; rates],
-            changes: [vec![0.0; memory], vec![0.0; memory]],
+            rates: trial.may_weaken().then(|| vec![0.0; count]),
+            changes: (trial.has_state()).then(|| [vec![0.0; count], vec![0.0; count]]),
             part,
             trial,
             strength,
-            outward: if body.is_some() { outward } else { Vec::new() },
+            outward,
             body,
             fields,
             bilateral,
-            normals,
         })
     }
 
     /// The position of a vertex of the body, if it is one of the contact.
     pub(crate) fn position_of(&self, vertex: usize) -> Option<usize> {
         let vertices = &self.part.vertices;
-        if self.order.is_empty() {
+        let Some(order) = &self.order else {
             return vertices.binary_search(&vertex).ok();
-        }
+        };
         let at = |&k: &u32| vertices[k as usize];
-        let found = self.order.binary_search_by_key(&vertex, at).ok()?;
-        Some(self.order[found] as usize)
+        let found = order.binary_search_by_key(&vertex, at).ok()?;
+        Some(order[found] as usize)
+    }
+
+    /// The number of states.
+    pub(crate) fn state_count(&self) -> usize {
+        usize::from(self.trial.has_state()) * self.part.vertices.len()
     }
 
     /// The slip rate of vertex number `k` [m/s].

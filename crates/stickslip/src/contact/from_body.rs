@@ -100,7 +100,8 @@ impl<const C: usize> DiscreteContact<C> {
             let beside_tip = side.is_some_and(|side| side.beside_tip[k]);
             // One without a normal has no side to part from.
             let opens = self.strength.opens
-                && (self.released[k].is_some() || self.outward[k] == SVector::<f64, C>::zeros());
+                && (self.opening_axis(k).is_some()
+                    || self.outward[k] == SVector::<f64, C>::zeros());
             if normal_stress < 0.0
                 && !opens
                 && !beside_tip

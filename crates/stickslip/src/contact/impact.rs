@@ -144,7 +144,7 @@ impl<const C: usize> ContactSet<C> {
     /// Shows the normal stresses in force at the start where contacts can open: those in balance with accelerations.
     pub(crate) fn start_open(&self, states: &mut [ContactState<C>]) {
         for (contact, state) in self.contacts.iter().zip(states) {
-            if !contact.released.is_empty() {
+            if contact.opening.is_some() {
                 state.normal_stress.copy_from_slice(&contact.normal_stress);
                 (state.earlier_normal_stress).copy_from_slice(&contact.normal_stress);
             }

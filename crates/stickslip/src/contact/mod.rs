@@ -25,5 +25,6 @@ mod weakening;
 pub(crate) use discrete_contact::DiscreteContact;
 pub(crate) use frictional_node::{Contribution, FrictionalNode};
 pub(crate) use from_body::FromBody;
+pub(crate) use opening::Opening;
 pub(crate) use set::ContactSet;
 pub(crate) use trial::Trial;

@@ -19,6 +19,25 @@ pub(crate) struct Gap {
     pub(crate) pull: f64,
 }
 
+/// The vertices of a contact that can open.
+#[derive(Debug, Clone)]
+pub(crate) struct Opening {
+    /// The normal component of each; none of one that cannot.
+    pub(crate) released: Vec<Option<usize>>,
+    /// The normal velocities at which their gaps are closed in the step [m/s].
+    pub(crate) bounds: Vec<f64>,
+}
+
+impl Opening {
+    /// A contact of so many vertices, of which none can open so far.
+    pub(crate) fn new(count: usize) -> Self {
+        Self {
+            released: vec![None; count],
+            bounds: vec![0.0; count],
+        }
+    }
+}
+
 impl Gap {
     /// The potential of a vertex with this gap.
     pub(crate) fn with<P: ConvexPotential<C>, const C: usize>(
@@ -38,7 +57,7 @@ impl Gap {
 impl<const C: usize> DiscreteContact<C> {
     /// The normal component of vertex number `k` and the outward normal along it, if it can open.
     pub(crate) fn opening_axis(&self, k: usize) -> Option<(usize, f64)> {
-        let axis = self.released.get(k).copied().flatten()?;
+        let axis = self.opening.as_ref()?.released[k]?;
         Some((axis, self.outward[k][axis].signum()))
     }
 
@@ -52,8 +71,9 @@ impl<const C: usize> DiscreteContact<C> {
 
     /// Whether vertex number `k` is open at this velocity in a step: its normal stress is then 0.
     pub(crate) fn is_open(&self, k: usize, velocity: &SVector<f64, C>) -> bool {
-        (self.opening_axis(k))
-            .is_some_and(|(axis, outward)| outward * velocity[axis] < self.bounds[k])
+        let bound = self.opening.as_ref().map(|opening| opening.bounds[k]);
+        (self.opening_axis(k).zip(bound))
+            .is_some_and(|((axis, outward), bound)| outward * velocity[axis] < bound)
     }
 
     /// Adds the normal tractions of vertices that can open, less those that the body balances without a reaction.
@@ -87,7 +107,7 @@ impl<const C: usize> ContactSet<C> {
     /// Whether any vertex can open.
     pub(crate) fn can_open(&self) -> bool {
         let mut contacts = self.contacts.iter();
-        contacts.any(|contact| !contact.released.is_empty())
+        contacts.any(|contact| contact.opening.is_some())
     }
 
     /// Marks the normal component of frictional vertex number `k`, if it can open.

@@ -41,15 +41,18 @@ impl<const C: usize> ContactSet<C> {
         velocity: impl Fn(usize) -> SVector<f64, C>,
     ) -> Result<(), StepError> {
         for (contact, from) in self.contacts.iter_mut().zip(from) {
-            for k in 0..contact.rates.len() {
+            let mut rates = contact.rates.take();
+            for (k, rate) in rates.iter_mut().flatten().enumerate() {
                 let from = velocity(contact.part.vertices[k]);
-                contact.rates[k] = modulus(&contact.tangential(k, &from));
+                *rate = modulus(&contact.tangential(k, &from));
             }
-            for changes in &mut contact.changes {
+            for changes in contact.changes.iter_mut().flatten() {
                 changes.fill(0.0);
             }
             let stress = [&*from.normal_stress, &*contact.normal_stress];
-            let begun = (contact.trial).begin(step, (&from.states, &contact.rates), stress);
+            let read = rates.as_deref().unwrap_or_default();
+            let begun = (contact.trial).begin(step, (&from.states, read), stress);
+            contact.rates = rates;
             begun.map_err(|vanished| contact.vanished(vanished, &from.normal_stress))?;
         }
         Ok(())
@@ -87,15 +90,16 @@ impl<const C: usize> ContactSet<C> {
     /// contacts.
     pub(crate) fn propose(&mut self, velocity: &[SVector<f64, C>]) -> Result<f64, StepError> {
         for contact in &mut self.contacts {
-            for k in 0..contact.rates.len() {
-                contact.rates[k] = contact.slip_rate(k, velocity);
+            let mut rates = contact.rates.take();
+            for (k, rate) in rates.iter_mut().flatten().enumerate() {
+                *rate = contact.slip_rate(k, velocity);
             }
-            contact.changes.swap(0, 1);
-            let [_, changes] = &mut contact.changes;
-            if changes.is_empty() {
+            contact.rates = rates;
+            let (Some(rates), Some(changes)) = (&contact.rates, &mut contact.changes) else {
                 continue;
-            }
-            let proposed = contact.trial.propose(&contact.rates, changes);
+            };
+            changes.swap(0, 1);
+            let proposed = contact.trial.propose(rates, &mut changes[1]);
             proposed.map_err(|(k, refused)| contact.refused(k, refused))?;
         }
         Ok(sum(self
@@ -125,10 +129,11 @@ impl<const C: usize> ContactSet<C> {
     /// The area of each vertex with a state, and its last two changes.
     fn weighted_changes(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
         self.contacts.iter().flat_map(|contact| {
-            let [before, now] = &contact.changes;
-            (contact.part.weights.iter())
-                .zip(before.iter().zip(now))
-                .map(|(&weight, (&before, &now))| (weight, [before, now]))
+            contact.changes.iter().flat_map(|[before, now]| {
+                (contact.part.weights.iter())
+                    .zip(before.iter().zip(now))
+                    .map(|(&weight, (&before, &now))| (weight, [before, now]))
+            })
         })
     }
 
@@ -175,7 +180,7 @@ impl<const C: usize> ContactSet<C> {
     /// body; else empty.
     pub(crate) fn constant_tractions(&self, size: usize) -> Vec<SVector<f64, C>> {
         let mut contacts = self.contacts.iter();
-        if !contacts.all(|contact| contact.bilateral && contact.released.is_empty()) {
+        if !contacts.all(|contact| contact.bilateral && contact.opening.is_none()) {
             return Vec::new();
         }
         let mut tractions = vec![SVector::zeros(); size];

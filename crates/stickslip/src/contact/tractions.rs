@@ -7,7 +7,7 @@ use super::DiscreteContact;
 impl<const C: usize> DiscreteContact<C> {
     /// Whether the contact exerts tractions beside friction.
     pub(crate) fn loads(&self) -> bool {
-        !self.bilateral || self.strength.shear.is_some() || !self.released.is_empty()
+        !self.bilateral || self.strength.shear.is_some() || self.opening.is_some()
     }
 
     /// Adds the tractions beside friction: a prescribed normal traction by a normal stress \[Pa\], and the initial
@@ -29,8 +29,8 @@ impl<const C: usize> DiscreteContact<C> {
             if let Some(shear) = shear {
                 load[vertex] += self.tangential(k, shear.at(k)) * *weight;
             }
-            if let Some(normal) = self.normals.get(k) {
-                load[vertex] -= normal * (weight * normal_stress[k]);
+            if !self.bilateral {
+                load[vertex] -= self.outward[k] * (weight * normal_stress[k]);
             }
         }
     }

@@ -109,9 +109,32 @@ impl Trial {
         self.states[k]
     }
 
+    /// The states in use.
+    pub(crate) fn states(&self) -> &[f64] {
+        &self.states
+    }
+
     /// Freezes another state.
     pub(crate) fn set_state(&mut self, k: usize, state: f64) {
         self.states[k] = state;
+    }
+
+    /// Freezes other states, of all vertices or, without states, of none.
+    pub(crate) fn set_states(&mut self, states: &[f64]) {
+        self.states[..states.len()].copy_from_slice(states);
+    }
+
+    /// The states in use from the `first` on, as friction reads them.
+    pub(crate) fn read_states(&self, first: usize, to: &mut [f64]) {
+        to.copy_from_slice(&self.states[first..][..to.len()]);
+        for (k, state) in (first..).zip(to).filter(|_| !self.least.is_empty()) {
+            (*state, _) = at_least(*state, self.least(k));
+        }
+    }
+
+    /// Whether the local problem is searched from the slip rate of the last step: that of laws that were not checked.
+    pub(crate) fn is_searched(&self) -> bool {
+        !self.properties.has_state && self.properties.unchecked
     }
 
     /// Begins a step from states and slip rates with the states frozen, while the normal stress changes from one value
@@ -263,7 +286,7 @@ impl Trial {
         let guess = if self.eliminated {
             let state = self.laws.advanced(k, self.start(k), start);
             closed_form(at_least(state.unwrap_or(f64::NAN), self.least(k)).0)
-        } else if !self.properties.has_state && self.properties.unchecked {
+        } else if self.is_searched() {
             start
         } else {
             return closed_form(self.read(k).0);

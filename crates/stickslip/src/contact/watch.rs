@@ -143,7 +143,8 @@ impl<const C: usize> ContactSet<C> {
 impl<const C: usize> DiscreteContact<C> {
     /// The error of a slip rate in use without a state.
     pub(crate) fn refused(&self, k: usize, refused: Refused) -> StepError {
-        let (vertex, slip_rate) = (self.part.vertices[k], self.rates[k]);
+        let rate = self.rates.as_ref().map(|rates| rates[k]);
+        let (vertex, slip_rate) = (self.part.vertices[k], rate.unwrap_or_default());
         let (what, value) = match refused {
             Refused::State(source) => {
                 return StepError::State {

@@ -1,6 +1,7 @@
 //! The distance of two results of a step, per quantity.
 
 use nalgebra::SVector;
+use stickslip_friction::modulus;
 use stickslip_solvers::Matrix;
 
 use super::ErrorControl;
@@ -133,8 +134,8 @@ pub(super) fn rate_distance<const C: usize>(
     floor: f64,
 ) -> f64 {
     // At rest on both sides nothing differs.
-    let larger = a.norm_squared().max(b.norm_squared()).sqrt();
-    (a - b).norm() / (larger + floor).max(f64::MIN_POSITIVE)
+    let larger = modulus(&a).max(modulus(&b));
+    modulus(&(a - b)) / (larger + floor).max(f64::MIN_POSITIVE)
 }
 
 /// The error of the motion in the energy norm, `sqrt(du . A du + dv . M dv)`. With inertia its scale is the largest motion

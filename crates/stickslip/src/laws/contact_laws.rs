@@ -1,12 +1,10 @@
 //! The type-erased laws of a contact for the time step: functions of numbers per vertex.
 
-use std::any::Any;
-
-use stickslip_friction::{FrictionLaw, Nodal, Response};
-use stickslip_state::{Reads, StateError, StateLaw, StateVariable};
+use stickslip_friction::Response;
+use stickslip_state::{StateError, StateLaw};
 use stickslip_time::{Motion, UpdateFormula};
 
-use super::normal_stress_effect::NormalStressEffect;
+use super::one_by_one;
 use super::state_update::StateUpdate;
 
 /// Properties of the laws of a contact.
@@ -62,7 +60,7 @@ impl Followed {
 }
 
 /// The laws of a contact; states are in the state law's own variable. Vertices are counted along the contact.
-pub(crate) trait ContactLaws: Any + Send + Sync {
+pub(crate) trait ContactLaws: Send + Sync {
     /// `mu(V, alpha)` and its slopes.
     fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response;
 
@@ -81,15 +79,27 @@ pub(crate) trait ContactLaws: Any + Send + Sync {
     /// `alpha'`.
     fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64;
 
+    /// The slip rates of the vertices from the `first` on, by their viscosities, drives and states.
+    fn slip_rates(&self, first: usize, problem: [&[f64]; 3], slip_rates: &mut [f64]) {
+        one_by_one::slip_rates(self, first, problem, slip_rates);
+    }
+
+    /// `dmu/dV` and `dmu/dalpha` of the vertices from the `first` on, at slip rates above 0 and states.
+    fn slopes(&self, first: usize, at: [&[f64]; 2], slopes: [&mut [f64]; 2]) {
+        one_by_one::slopes(self, first, at, slopes);
+    }
+
+    /// `alpha'` of the vertices from the `first` on, by their slip rates and states.
+    fn evolutions(&self, first: usize, at: [&[f64]; 2], rates: &mut [f64]) {
+        one_by_one::evolutions(self, first, at, rates);
+    }
+
     /// The state after a change of the normal stress, given by its logarithm, and its derivative in the old state.
     fn shifted(&self, k: usize, state: f64, stress: f64) -> (f64, f64);
 
     /// The distance of two states, on the scale of the state's effect.
     fn distance(&self, a: f64, b: f64) -> f64;
 }
-
-/// A state after a law's own step, that state after a change of the normal stress, and the slope of this change.
-type Stepped<S> = (<S as StateLaw>::State, <S as StateLaw>::State, f64);
 
 /// The logarithm of a change of the normal stress, 0 where the state does not depend on it; none where the state does
 /// and the normal stress vanishes.
@@ -103,98 +113,6 @@ pub(crate) fn change(
         return Some((to / from).ln());
     }
     (from == to || laws.shifted(k, state, 1.0).0 == state).then_some(0.0)
-}
-
-/// A friction law with its state law, static for each vertex.
-pub(crate) struct RateAndState<L, S: StateLaw> {
-    pub(crate) friction: Nodal<L>,
-    pub(crate) evolution: Nodal<S>,
-    pub(crate) effect: Option<NormalStressEffect<S::State>>,
-}
-
-impl<L, S: StateLaw> RateAndState<L, S> {
-    /// The state after the law's own step, after the remaining share of the normal stress change, and the derivative of
-    /// the latter in the former.
-    #[inline]
-    fn stepped(
-        &self,
-        k: usize,
-        from: StateStart,
-        slip_rate: f64,
-    ) -> Result<Stepped<S>, StateError> {
-        let (law, start) = (self.evolution.at(k), S::State::from_value(from.state));
-        let advanced = from.step.advance(law, start, from.rate, slip_rate)?;
-        let (state, shift_slope) = match &self.effect {
-            Some(effect) => effect.shifted(k, advanced, from.stress),
-            None => (advanced, 1.0),
-        };
-        Ok((advanced, state, shift_slope))
-    }
-}
-
-impl<L, S> ContactLaws for RateAndState<L, S>
-where
-    L: FrictionLaw + 'static,
-    S: StateLaw + 'static,
-    L::State: Reads<S::State>,
-{
-    #[inline]
-    fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response {
-        let state = S::State::from_value(state);
-        let friction = self.friction.at(k);
-        let mut response = friction.response(slip_rate, L::State::read(state));
-        response.state_slope *= L::State::slope(state);
-        response
-    }
-
-    fn potential(&self, k: usize, slip_rate: f64, state: f64) -> f64 {
-        let state = L::State::read(S::State::from_value(state));
-        self.friction.at(k).potential(slip_rate, state)
-    }
-
-    fn slip_rate(&self, k: usize, viscosity: f64, drive: f64, state: f64) -> f64 {
-        let state = L::State::read(S::State::from_value(state));
-        self.friction.at(k).slip_rate(viscosity, drive, state)
-    }
-
-    fn advanced(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<f64, StateError> {
-        let (_, state, _) = self.stepped(k, from, slip_rate)?;
-        Ok(state.value())
-    }
-
-    fn followed(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<Followed, StateError> {
-        let (law, start) = (self.evolution.at(k), S::State::from_value(from.state));
-        let (advanced, state, shift_slope) = self.stepped(k, from, slip_rate)?;
-        let (read, read_slope) = at_least(state.value(), from.least);
-        let read = S::State::from_value(read);
-        let response = (self.friction.at(k)).response(slip_rate, L::State::read(read));
-        let mut rate_slope = response.rate_slope;
-        if response.state_slope != 0.0 && read_slope != 0.0 {
-            let follows = (from.step).slope(law, (start, advanced), from.rate, slip_rate);
-            rate_slope += response.state_slope * L::State::slope(state) * shift_slope * follows;
-        }
-        Ok(Followed {
-            state: state.value(),
-            coefficient: response.coefficient,
-            rate_slope,
-        })
-    }
-
-    fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64 {
-        (self.evolution.at(k)).evolution(S::State::from_value(state), slip_rate)
-    }
-
-    fn shifted(&self, k: usize, state: f64, stress: f64) -> (f64, f64) {
-        let Some(effect) = &self.effect else {
-            return (state, 1.0);
-        };
-        let (state, slope) = effect.shifted(k, S::State::from_value(state), stress);
-        (state.value(), slope)
-    }
-
-    fn distance(&self, a: f64, b: f64) -> f64 {
-        S::State::from_value(a).distance(S::State::from_value(b))
-    }
 }
 
 /// The step of the state at all vertices.

@@ -3,15 +3,16 @@
 mod contact_laws;
 mod laws_at;
 mod normal_stress_effect;
+mod one_by_one;
 mod places;
-mod regularized;
+mod rate_and_state;
 mod state_update;
 
 pub(crate) use contact_laws::{
-    ContactLaws, Followed, LawProperties, RateAndState, StateStart, StateStep, at_least, change,
+    ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change,
 };
 pub(crate) use laws_at::LawsAt;
 pub(crate) use normal_stress_effect::NormalStressEffect;
 pub(crate) use places::Places;
-pub(crate) use regularized::regularized;
+pub(crate) use rate_and_state::RateAndState;
 pub use state_update::StateUpdate;

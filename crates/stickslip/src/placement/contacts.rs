@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use super::axes::Axes;
 use super::constraints::Constraints;
-use crate::contact::{ContactSet, Contribution, DiscreteContact, FrictionalNode};
+use crate::contact::{ContactSet, Contribution, DiscreteContact, FrictionalNode, Opening};
 use crate::scene::{AnyContact, components_of};
 use crate::{BoundaryCondition, BoundaryPart, SceneError};
 
@@ -82,9 +82,7 @@ fn release<const C: usize>(
 ) {
     let mut any = false;
     for contact in contacts.iter_mut().filter(|contact| contact.can_open()) {
-        let count = contact.part.vertices.len();
-        contact.released = vec![None; count];
-        contact.bounds = vec![0.0; count];
+        contact.opening = Some(Opening::new(contact.part.vertices.len()));
         any = true;
     }
     for (vertex, shares) in meeting.iter().enumerate().filter(|_| any) {
@@ -101,7 +99,9 @@ fn release<const C: usize>(
         if (0..C).all(|c| kept(c) == (c == axis)) {
             constraints.release(vertex, axis);
             for share in shares {
-                contacts[share.contact as usize].released[share.place as usize] = Some(axis);
+                if let Some(opening) = &mut contacts[share.contact as usize].opening {
+                    opening.released[share.place as usize] = Some(axis);
+                }
             }
         }
     }

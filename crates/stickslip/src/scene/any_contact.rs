@@ -204,11 +204,7 @@ where
         unchecked: !sampled,
         follows_normal_stress: effect.is_some(),
     };
-    let laws = RateAndState {
-        friction,
-        evolution,
-        effect,
-    };
+    let laws = RateAndState::new(friction, evolution, effect);
     Ok(ErasedLaws {
         functions: Arc::new(laws),
         properties,

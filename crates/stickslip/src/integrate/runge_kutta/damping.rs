@@ -9,7 +9,7 @@ use crate::contact::ContactSet;
 use crate::placement::Constraints;
 
 /// A vertex without friction, and the inverse of its block on the free components.
-type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);
+pub(super) type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);
 
 /// The blocks of the viscosity at frictional vertices, and those at vertices without friction.
 pub(super) fn of_vertices<const C: usize>(

@@ -2,8 +2,9 @@
 
 use stickslip_friction::modulus;
 
+use super::RungeKutta;
+use super::motion::Motion;
 use super::tableau::{DENSE, STAGES};
-use super::{Motion, RungeKutta};
 use crate::step::Span;
 use crate::{Snapshot, StepFailure, StepState};
 
@@ -36,7 +37,9 @@ impl<const C: usize> RungeKutta<C> {
     /// Whether times inside of a step can be shown: not where the state follows the normal stress or fields have a
     /// memory, which stages change in place.
     pub(super) fn is_dense(&self) -> bool {
-        !self.follows && !self.contacts.have_fields()
+        let contacts = &self.scene.contacts;
+        let follow = (contacts.contacts.iter()).any(|own| own.trial.follows_normal_stress());
+        !follow && !contacts.have_fields()
     }
 
     /// Shows the motion at times inside of the last accepted step, then restores its end.
@@ -45,14 +48,14 @@ impl<const C: usize> RungeKutta<C> {
         times: &[f64],
         show: &mut dyn FnMut(Snapshot<'_, C>),
     ) -> Result<(), StepFailure> {
-        let mut dense = self.dense.take().unwrap_or_else(|| {
+        let mut dense = self.stages.dense.take().unwrap_or_else(|| {
             Box::new(Dense {
-                first: self.slopes[0].clone(),
+                first: self.stages.slopes[0].clone(),
                 from: self.last.clone(),
                 to: self.now.clone(),
             })
         });
-        std::mem::swap(&mut dense.first, &mut self.slopes[0]);
+        std::mem::swap(&mut dense.first, &mut self.stages.slopes[0]);
         dense.from.copy_from(&self.last);
         dense.to.copy_from(&self.now);
         let shown = times.iter().try_for_each(|&time| {
@@ -61,8 +64,8 @@ impl<const C: usize> RungeKutta<C> {
             Ok(())
         });
         let back = self.move_back(&dense.to);
-        std::mem::swap(&mut dense.first, &mut self.slopes[0]);
-        self.dense = Some(dense);
+        std::mem::swap(&mut dense.first, &mut self.stages.slopes[0]);
+        self.stages.dense = Some(dense);
         shown.and(back)
     }
 
@@ -75,7 +78,7 @@ impl<const C: usize> RungeKutta<C> {
         let mut shares = DENSE.map(|weight| weight * inside * dt);
         shares[0] += first * dt;
         shares[STAGES - 1] += last * dt;
-        let slopes = &self.slopes;
+        let slopes = &self.stages.slopes;
         // The slope of a stage; the second has no weight.
         let of = |stage: usize| {
             if stage == 0 {
@@ -102,7 +105,7 @@ impl<const C: usize> RungeKutta<C> {
         }
         let mut row = 0;
         for ((at, contact), (from, to)) in (self.now.contacts.iter_mut())
-            .zip(&self.contacts.contacts)
+            .zip(&self.scene.contacts.contacts)
             .zip(from.contacts.iter().zip(&to.contacts))
         {
             for (k, state) in at.states.iter_mut().enumerate() {
@@ -117,14 +120,14 @@ impl<const C: usize> RungeKutta<C> {
                 *slip = from.slip[k] + modulus(&contact.tangential(k, &moved));
             }
         }
-        self.stage.copy_from(&self.now);
+        self.stages.motion.copy_from(&self.now);
         let stiffness = self.matrices.stiffness();
-        (self.elastic).at(0, stiffness, &self.stage.displacement);
+        (self.elastic).at(0, stiffness, &self.stages.motion.displacement);
         let balanced = self.evaluate(0, self.now.clock.time());
         balanced.map_err(|cause| StepFailure::of(&self.now.clock, cause))?;
         for (vertex, rate) in self.now.velocity.iter_mut().enumerate() {
             if !self.soft.has(vertex) {
-                *rate = self.slopes[0].displacement[vertex];
+                *rate = self.stages.slopes[0].displacement[vertex];
             }
         }
         self.show_balanced();
@@ -134,9 +137,9 @@ impl<const C: usize> RungeKutta<C> {
     /// The end of the step, with its loads, normal stresses and elastic forces: those of the last stage, bit for bit.
     fn move_back(&mut self, to: &StepState<C>) -> Result<(), StepFailure> {
         self.now.copy_from(to);
-        self.stage.copy_from(&self.now);
+        self.stages.motion.copy_from(&self.now);
         self.elastic.repeat_last();
-        let time = Span::seen(&self.now.clock, &self.stops);
+        let time = Span::seen(&self.now.clock, &self.scene.stops);
         let balanced = self.evaluate(0, time);
         balanced.map_err(|cause| StepFailure::of(&self.now.clock, cause))?;
         self.show_balanced();
@@ -144,11 +147,16 @@ impl<const C: usize> RungeKutta<C> {
     }
 
     fn show_balanced(&mut self) {
-        for (at, contact) in self.now.contacts.iter_mut().zip(&self.contacts.contacts) {
+        for (at, contact) in self
+            .now
+            .contacts
+            .iter_mut()
+            .zip(&self.scene.contacts.contacts)
+        {
             at.normal_stress.copy_from_slice(&contact.normal_stress);
         }
-        self.balanced = Some(self.now.clock);
-        self.seen.show(&self.now);
+        self.drive.balanced = Some(self.now.clock);
+        self.scene.seen.show(&self.now);
     }
 }
 

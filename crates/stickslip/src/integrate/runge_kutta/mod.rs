@@ -1,11 +1,15 @@
 //! An explicit Runge-Kutta method of order 5 for rate and state as an ordinary differential equation.
 
 mod balance;
+mod contacts;
 mod damping;
 mod dense;
+mod drive;
 mod elastic;
 mod error;
-mod many_cells;
+mod motion;
+mod scalar;
+mod slopes;
 mod soft;
 mod source;
 mod stability;
@@ -15,7 +19,6 @@ mod stiffness;
 mod tableau;
 mod threads;
 
-use nalgebra::{SMatrix, SVector};
 use stickslip_core::compiled;
 use stickslip_solvers::{MeshId, Operator};
 
@@ -25,15 +28,15 @@ use crate::placement::{self, Constraints, Placement};
 use crate::scene::{Conditions, Loads};
 use crate::view::{GlobalFields, StepView};
 use crate::{
-    Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepError, StepFailure,
+    IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepError, StepFailure,
     StepState, Steps,
 };
-use dense::Dense;
+use balance::LocalProblems;
+use drive::Drive;
 use elastic::Elastic;
-use many_cells::ManyCells;
+use motion::Stages;
 use soft::SoftCells;
 use stability::Resistances;
-use tableau::STAGES;
 use threads::Threads;
 
 /// A scene without inertia in which every vertex has its own resistance to motion, integrated as the differential
@@ -78,56 +81,32 @@ use threads::Threads;
 #[doc(alias("quasi-dynamic", "ODE"))]
 pub struct RungeKutta<const C: usize> {
     matrices: Box<dyn Matrices<C>>,
+    scene: Placed<C>,
+    now: StepState<C>,
+    last: StepState<C>,
+    stages: Stages<C>,
+    elastic: Elastic<C>,
+    drive: Drive<C>,
+    local: LocalProblems<C>,
+    /// The cells that relax far faster than the rest.
+    soft: SoftCells<C>,
+    /// The resistance to an error of the displacement; none before the first step of a constant size.
+    resistances: Option<Box<Resistances<C>>>,
+    /// Whether the last stage is the first of the next step.
+    accepted: bool,
+    threads: Threads,
+}
+
+/// A scene on its vertices, and what is seen of its body.
+struct Placed<const C: usize> {
     /// The body's mesh, if it is known.
     mesh: Option<MeshId>,
     loads: Loads<C>,
     constraints: Constraints<C>,
     contacts: ContactSet<C>,
     seen: GlobalFields<C>,
-    /// `C` at each frictional vertex, with Dirichlet components removed.
-    damping: Vec<SMatrix<f64, C, C>>,
-    /// The vertices without friction, and the inverse of `C` on their free components.
-    smooth: Vec<(usize, SMatrix<f64, C, C>)>,
-    /// Whether the state of any contact depends on its normal stress.
-    follows: bool,
-    now: StepState<C>,
-    last: StepState<C>,
-    /// `(u', alpha')` at the stages of the last step. The last stage is the first of the next step.
-    slopes: [Motion<C>; STAGES],
-    /// `(u, alpha)` of a stage, and the difference of a step from the embedded method.
-    stage: Motion<C>,
-    error: Motion<C>,
-    /// The contacts, if they are regularised friction of many cells.
-    many_cells: Option<ManyCells<C>>,
-    /// The cells that relax far faster than the rest.
-    soft: SoftCells<C>,
-    /// The resistance to an error of the displacement; none before the first step of a constant size.
-    resistances: Option<Box<Resistances<C>>>,
-    /// The elastic forces of the stages.
-    elastic: Elastic<C>,
-    /// The change of normal stresses in the error estimate; empty where none follows the displacement.
-    clamped: Vec<f64>,
-    /// The tractions of contacts beside friction \[N\], if none changes in time; else empty.
-    tractions: Vec<SVector<f64, C>>,
-    /// `l - A u` of the last stage.
-    drive: Vec<SVector<f64, C>>,
-    scratch: Vec<SVector<f64, C>>,
-    /// The accepted step of `drive`.
-    balanced: Option<Clock>,
-    accepted: bool,
-    /// Copies while times inside of a step are shown.
-    dense: Option<Box<Dense<C>>>,
-    threads: Threads,
     /// Times at which data can jump \[s\], increasing.
     stops: Vec<f64>,
-}
-
-/// The unknowns of the equation, or a change of them.
-#[derive(Clone)]
-struct Motion<const C: usize> {
-    displacement: Vec<SVector<f64, C>>,
-    /// The states of all contacts, one after the other.
-    states: Vec<f64>,
 }
 
 impl<const C: usize> RungeKutta<C> {
@@ -144,11 +123,9 @@ impl<const C: usize> RungeKutta<C> {
 
     /// The slopes of the present state, from which the next step starts.
     fn begin(&mut self) -> Result<(), SceneError> {
-        self.stage.copy_from(&self.now);
-        self.contacts.hold_fields(&self.now);
         let stiffness = self.matrices.stiffness();
-        (self.elastic).at(0, stiffness, &self.stage.displacement);
-        let start = self.evaluate(0, self.now.clock.time());
+        self.elastic.at(0, stiffness, &self.now.displacement);
+        let start = self.find_first_slopes(self.now.clock.time());
         start.map_err(|cause| match cause {
             StepError::Stage { .. } => SceneError::unsupported(
                 SceneError::EXPLICIT,
@@ -156,14 +133,10 @@ impl<const C: usize> RungeKutta<C> {
             ),
             cause => SceneError::Start(cause),
         })?;
-        self.find_field_sources(0, self.now.clock.time());
-        self.find_rates();
-        self.remember_soft_cells();
-        (self.elastic).of_first_rates(self.matrices.stiffness(), &self.slopes[0].displacement);
-        (self.now.velocity).copy_from_slice(&self.slopes[0].displacement);
-        self.balanced = Some(self.now.clock);
+        (self.now.velocity).copy_from_slice(&self.stages.slopes[0].displacement);
+        self.drive.balanced = Some(self.now.clock);
         self.accepted = false;
-        self.seen.show(&self.now);
+        self.scene.seen.show(&self.now);
         Ok(())
     }
 
@@ -220,60 +193,32 @@ compiled! {
                 "a normal stress that is prescribed, or Scene::with_normal_stress_change",
             ));
         }
-        let (damping, smooth) = damping::of_vertices(&*matrices, &constraints, &contacts)?;
-        let size = now.velocity.len();
-        let motion = Motion {
-            displacement: vec![SVector::zeros(); size],
-            states: vec![
-                0.0;
-                now.contacts
-                    .iter()
-                    .map(|contact| contact.states.len())
-                    .sum()
-            ],
-        };
+        let local = LocalProblems::new(&*matrices, &constraints, &contacts)?;
         let follows =
             (contacts.contacts.iter()).any(|contact| contact.trial.follows_normal_stress());
         let is_free = constraints.held.is_empty() && !follows;
+        let size = now.velocity.len();
+        let clamps = contacts.clamping().is_some() || contacts.have_fields();
         let mut integrator = RungeKutta {
             resistances: None,
             soft: SoftCells::new(matrices.stiffness(), &contacts, is_free),
-            scratch: loads.scratch(size),
-            many_cells: if constraints.held.is_empty() {
-                ManyCells::new(&contacts, &damping, size)
-            } else {
-                None
-            },
             elastic: Elastic::new(size),
-            clamped: vec![
-                0.0;
-                if contacts.clamping().is_some() || contacts.have_fields() {
-                    size
-                } else {
-                    0
-                }
-            ],
-            tractions: contacts.constant_tractions(size),
-            drive: vec![SVector::zeros(); size],
-            slopes: std::array::from_fn(|_| motion.clone()),
-            error: motion.clone(),
-            stage: motion,
-            seen: GlobalFields::new(basis),
+            drive: Drive::new(size, &loads, &contacts),
+            stages: Stages::new(&now, clamps),
+            local,
             matrices,
-            mesh,
-            loads,
-            constraints,
-            follows,
-            contacts,
-            damping,
-            smooth,
+            scene: Placed {
+                seen: GlobalFields::new(basis),
+                mesh,
+                loads,
+                constraints,
+                contacts,
+                stops: Vec::new(),
+            },
             last: now.clone(),
             now,
-            balanced: None,
             accepted: false,
-            dense: None,
             threads: Threads::new(),
-            stops: Vec::new(),
         };
         integrator.begin()?;
         Ok(integrator)

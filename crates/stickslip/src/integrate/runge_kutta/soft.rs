@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{Matrix, Potentials};
 
 use super::RungeKutta;
-use super::balance::numbered;
+use super::contacts::numbered;
 use super::tableau::NODES;
 use crate::StepError;
 use crate::contact::ContactSet;
@@ -143,16 +143,17 @@ impl<const C: usize> RungeKutta<C> {
         if soft.own.is_empty() {
             return;
         }
-        soft.find_least(&self.contacts);
+        soft.find_least(&self.scene.contacts);
         if soft.least == 0.0 {
             return;
         }
         for (k, rate) in soft.rates.iter_mut().enumerate() {
-            let (v, own) = (&self.slopes[0].displacement[k], &soft.own[k]);
+            let (v, own) = (&self.stages.slopes[0].displacement[k], &soft.own[k]);
             *rate = 0.0;
-            let is_soft = soft.normal_stress[k] < soft.least && self.contacts.reads_rate(k);
+            let is_soft = soft.normal_stress[k] < soft.least && self.scene.contacts.reads_rate(k);
             if is_soft && v.amax() > 0.0 {
-                let resistance = self.damping[k] + self.contacts.local_model(k, v).hessian;
+                let resistance =
+                    self.local.damping[k] + self.scene.contacts.local_model(k, v).hessian;
                 *rate = v.dot(&(own * v)) / v.dot(&(resistance * v));
             }
         }
@@ -168,8 +169,8 @@ impl<const C: usize> RungeKutta<C> {
         if self.now.last_step > 0.0 {
             self.soft.find(self.now.last_step);
             for &k in &self.soft.cells {
-                let vertex = self.contacts.vertices[k];
-                self.slopes[0].displacement[vertex] = self.now.velocity[vertex];
+                let vertex = self.scene.contacts.vertices[k];
+                self.stages.slopes[0].displacement[vertex] = self.now.velocity[vertex];
             }
         }
     }
@@ -177,7 +178,7 @@ impl<const C: usize> RungeKutta<C> {
     /// Displaces the soft cells of a stage, as a first guess by the mean rates of the previous one.
     pub(super) fn displace_soft_cells(&mut self, stage: usize, dt: f64) {
         for &k in &self.soft.cells {
-            let rate = &self.slopes[stage - 1].displacement[self.contacts.vertices[k]];
+            let rate = &self.stages.slopes[stage - 1].displacement[self.scene.contacts.vertices[k]];
             self.soft.seen[k * C..][..C].copy_from_slice(rate.as_slice());
         }
         self.displace_as_seen(stage, dt);
@@ -186,9 +187,9 @@ impl<const C: usize> RungeKutta<C> {
     fn displace_as_seen(&mut self, stage: usize, dt: f64) {
         let since = NODES[stage] * dt;
         for &k in &self.soft.cells {
-            let vertex = self.contacts.vertices[k];
+            let vertex = self.scene.contacts.vertices[k];
             let rate = SVector::from_column_slice(&self.soft.seen[k * C..][..C]);
-            self.stage.displacement[vertex] = self.now.displacement[vertex] + rate * since;
+            self.stages.motion.displacement[vertex] = self.now.displacement[vertex] + rate * since;
         }
     }
 
@@ -227,7 +228,11 @@ impl<const C: usize> RungeKutta<C> {
             } = &mut self.soft;
             anderson.advance(&ranks, weights, seen, balanced);
             self.displace_as_seen(stage, dt);
-            (self.elastic).at(stage, self.matrices.stiffness(), &self.stage.displacement);
+            (self.elastic).at(
+                stage,
+                self.matrices.stiffness(),
+                &self.stages.motion.displacement,
+            );
             self.evaluate(stage, time)?;
         }
         Ok(())
@@ -239,34 +244,23 @@ impl<const C: usize> RungeKutta<C> {
         let [mut missing, mut scale] = [0.0_f64; 2];
         let since = NODES[stage] * dt;
         for &k in &self.soft.cells {
-            let (vertex, own) = (self.contacts.vertices[k], &self.soft.own[k]);
-            // Many cells have no states in force inside of a step.
-            let mut first = 0;
-            for contact in &mut self.contacts.contacts {
-                let states = contact.part.vertices.len() * usize::from(contact.trial.has_state());
-                if let Some(place) = contact.position_of(vertex).filter(|_| states > 0) {
-                    contact
-                        .trial
-                        .set_state(place, self.stage.states[first + place]);
-                }
-                first += states;
-            }
-            let moved = self.stage.displacement[vertex] - self.now.displacement[vertex];
-            let force = self.drive[vertex] + own * moved;
-            let resistance = self.damping[k] + own * since;
-            let velocity = self.contacts.minimize(k, &resistance, &force);
+            let (vertex, own) = (self.scene.contacts.vertices[k], &self.soft.own[k]);
+            let moved = self.stages.motion.displacement[vertex] - self.now.displacement[vertex];
+            let force = self.drive.forces[vertex] + own * moved;
+            let resistance = self.local.damping[k] + own * since;
+            let velocity = self.scene.contacts.minimize(k, &resistance, &force);
             self.soft.balanced[k * C..][..C].copy_from_slice(velocity.as_slice());
             let unseen = own * (velocity * since - moved);
             missing = largest([missing, unseen.amax()].into_iter());
             let elastic = &self.elastic.at_stages[stage][vertex];
             scale = scale.max(elastic.amax() + force.amax());
-            let slope = &mut self.slopes[stage];
+            let slope = &mut self.stages.slopes[stage];
             slope.displacement[vertex] = velocity;
-            for (contact, at, first) in numbered(&self.contacts, &self.now) {
+            for (contact, at, first) in numbered(&self.scene.contacts, &self.now) {
                 let place = contact.position_of(vertex);
                 if let Some(place) = place.filter(|_| !at.states.is_empty()) {
                     let rate = contact.slip_rate(place, &slope.displacement);
-                    let state = self.stage.states[first + place];
+                    let state = self.stages.motion.states[first + place];
                     slope.states[first + place] =
                         contact.trial.laws().evolution(place, rate, state);
                 }
@@ -278,10 +272,14 @@ impl<const C: usize> RungeKutta<C> {
     /// Sets the errors of the displacements of soft cells: that of backward Euler's method, damped by the relaxation.
     pub(super) fn differ_soft_cells(&mut self, dt: f64) {
         for &k in &self.soft.cells {
-            let vertex = self.contacts.vertices[k];
-            let [first, .., last] = self.slopes.each_ref().map(|at| at.displacement[vertex]);
+            let vertex = self.scene.contacts.vertices[k];
+            let [first, .., last] = self
+                .stages
+                .slopes
+                .each_ref()
+                .map(|at| at.displacement[vertex]);
             let share = 0.5 * dt / (1.0 + dt * self.soft.rates[k]);
-            self.error.displacement[vertex] = (last - first) * share;
+            self.stages.error.displacement[vertex] = (last - first) * share;
         }
     }
 }

@@ -14,22 +14,19 @@ impl<const C: usize> RungeKutta<C> {
         match error {
             StepError::Stage { .. } => {}
             StepError::Data { what, .. } if what == NORMAL_STRESS_CHANGE => {
-                let moved = check_finite("displacement", &self.stage.displacement);
+                let moved = check_finite("displacement", &self.stages.motion.displacement);
                 return moved.err().unwrap_or(error);
             }
             _ => return error,
         }
-        let mut load = vec![SVector::zeros(); self.drive.len()];
-        let mut scratch = self.loads.scratch(load.len());
-        self.loads.fill(time, &mut load, &mut scratch);
+        let mut load = vec![SVector::zeros(); self.drive.forces.len()];
+        let mut scratch = self.scene.loads.scratch(load.len());
+        self.scene.loads.fill(time, &mut load, &mut scratch);
         if let Err(source) = check_finite("load", &load) {
             return source;
         }
-        // The laws of many cells are those of the library.
-        let many_cells = self.many_cells.take();
-        let watch = self.contacts.watch();
+        let watch = self.scene.contacts.watch();
         let _ = self.find_slopes(stage, time);
-        self.many_cells = many_cells;
-        self.contacts.end_watch(watch).unwrap_or(error)
+        self.scene.contacts.end_watch(watch).unwrap_or(error)
     }
 }

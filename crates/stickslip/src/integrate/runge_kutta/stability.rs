@@ -27,7 +27,7 @@ impl<const C: usize> RungeKutta<C> {
         let mut resistances = self.resistances.take().unwrap_or_else(|| {
             let own = |vertex: usize| {
                 let block = self.matrices.stiffness().diagonal_block(vertex);
-                inverted(block, &self.constraints.fixed[vertex])
+                inverted(block, &self.scene.constraints.fixed[vertex])
             };
             let blocks: Vec<_> = (0..self.now.velocity.len()).map(own).collect();
             let spread = self.highest_rate(&blocks);
@@ -55,23 +55,30 @@ impl<const C: usize> RungeKutta<C> {
     }
 
     pub(super) fn find_resistances(&self, blocks: &mut [[SMatrix<f64, C, C>; 2]]) {
-        let (velocity, fixed) = (&self.slopes[0].displacement, &self.constraints.fixed);
-        for (k, &vertex) in self.contacts.vertices.iter().enumerate() {
-            let slope = self.contacts.local_model(k, &velocity[vertex]).hessian;
+        let (velocity, fixed) = (
+            &self.stages.slopes[0].displacement,
+            &self.scene.constraints.fixed,
+        );
+        for (k, &vertex) in self.scene.contacts.vertices.iter().enumerate() {
+            let slope = self
+                .scene
+                .contacts
+                .local_model(k, &velocity[vertex])
+                .hessian;
             // What rests has no error that grows.
             let rests = velocity[vertex].amax() == 0.0;
             blocks[vertex] = if rests {
                 [SMatrix::zeros(); 2]
             } else {
-                inverted(self.damping[k] + slope, &fixed[vertex])
+                inverted(self.local.damping[k] + slope, &fixed[vertex])
             };
         }
         if let Some(viscosity) = self.matrices.viscosity() {
-            for &(vertex, inverse) in &self.smooth {
+            for &(vertex, inverse) in &self.local.smooth {
                 blocks[vertex] = [viscosity.diagonal_block(vertex), inverse];
             }
         }
-        for vertex in self.soft.vertices(&self.contacts.vertices) {
+        for vertex in self.soft.vertices(&self.scene.contacts.vertices) {
             blocks[vertex] = [SMatrix::zeros(); 2];
         }
     }
@@ -84,7 +91,7 @@ impl<const C: usize> RungeKutta<C> {
             }
         };
         let mut general = vec![SVector::zeros(); blocks.len()];
-        all_directions(&mut general, &self.constraints.fixed);
+        all_directions(&mut general, &self.scene.constraints.fixed);
         let mut start = general.clone();
         each(1, &general, &mut start);
         let solve = |image: &[_], next: &mut [_]| {

@@ -5,7 +5,6 @@ use stickslip_core::compiled;
 use stickslip_solvers::MeshId;
 
 use super::RungeKutta;
-use super::many_cells::ManyCells;
 use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::placement::Constraints;
@@ -23,15 +22,15 @@ impl<const C: usize> StepView<C> for RungeKutta<C> {
     }
 
     fn contacts(&self) -> &ContactSet<C> {
-        &self.contacts
+        &self.scene.contacts
     }
 
     fn loads(&self) -> &Loads<C> {
-        &self.loads
+        &self.scene.loads
     }
 
     fn constraints(&self) -> &Constraints<C> {
-        &self.constraints
+        &self.scene.constraints
     }
 
     fn matrices(&self) -> &dyn Matrices<C> {
@@ -39,15 +38,15 @@ impl<const C: usize> StepView<C> for RungeKutta<C> {
     }
 
     fn mesh(&self) -> Option<MeshId> {
-        self.mesh
+        self.scene.mesh
     }
 
     fn fields(&self) -> &GlobalFields<C> {
-        &self.seen
+        &self.scene.seen
     }
 
     fn data_time(&self) -> f64 {
-        Span::seen(&self.now.clock, &self.stops)
+        Span::seen(&self.now.clock, &self.scene.stops)
     }
 
     /// Infinite: the slip rate is the closed form of the balance, so that both are equally accurate.
@@ -60,17 +59,17 @@ impl<const C: usize> StepView<C> for RungeKutta<C> {
             Some(viscosity) => viscosity.diagonal_block(vertex) * self.now.velocity[vertex],
             None => SVector::zeros(),
         };
-        if self.balanced == Some(self.now.clock) {
+        if self.drive.balanced == Some(self.now.clock) {
             for (force, &vertex) in forces.iter_mut().zip(vertices) {
-                *force = self.drive[vertex] - viscous(vertex);
+                *force = self.drive.forces[vertex] - viscous(vertex);
             }
             return;
         }
         let size = self.now.velocity.len();
         let mut drive = vec![SVector::zeros(); size];
         let time = self.data_time();
-        (self.loads).fill(time, &mut drive, &mut self.loads.scratch(size));
-        self.contacts.add_tractions(&mut drive);
+        (self.scene.loads).fill(time, &mut drive, &mut self.scene.loads.scratch(size));
+        self.scene.contacts.add_tractions(&mut drive);
         for (force, &vertex) in forces.iter_mut().zip(vertices) {
             let stiffness = self.matrices.stiffness();
             let product = stiffness.product_at(vertex, &self.now.displacement);
@@ -80,9 +79,9 @@ impl<const C: usize> StepView<C> for RungeKutta<C> {
 }
 
 impl<const C: usize> RungeKutta<C> {
-    /// Works with the threads of the pool awake, if friction of enough cells is computed together.
+    /// Works with the threads of the pool awake, if the local problems of enough vertices are scalar.
     fn in_threads<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R {
-        let cells = self.many_cells.as_ref().map_or(0, ManyCells::count);
+        let cells = self.local.scalar_count();
         let mut threads = self.threads;
         let result = threads.work(cells, || work(&mut *self));
         self.threads = threads;
@@ -130,16 +129,16 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
     }
 
     fn set_stops(&mut self, stops: &[f64]) {
-        self.stops.clear();
-        self.stops.extend_from_slice(stops);
+        self.scene.stops.clear();
+        self.scene.stops.extend_from_slice(stops);
     }
 
     fn undo(&mut self) {
         self.now.copy_from(&self.last);
         if std::mem::take(&mut self.accepted) {
-            self.balanced = None;
+            self.drive.balanced = None;
         }
-        self.seen.show(&self.now);
+        self.scene.seen.show(&self.now);
     }
 
     fn state(&self) -> &StepState<C> {

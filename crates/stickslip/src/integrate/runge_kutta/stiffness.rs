@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::modulus;
 
 use super::RungeKutta;
-use super::balance::numbered;
+use super::contacts::numbered;
 use super::tableau::REAL_STABILITY;
 use crate::numerics::NUMERICS;
 use crate::sums::all_directions;
@@ -36,7 +36,13 @@ impl<const C: usize> RungeKutta<C> {
     pub(super) fn find_stable_step(&mut self) -> Option<f64> {
         // What is in force may be of a step that was rejected.
         self.begin().ok()?;
-        for (contact, at) in self.contacts.contacts.iter_mut().zip(&self.now.contacts) {
+        for (contact, at) in self
+            .scene
+            .contacts
+            .contacts
+            .iter_mut()
+            .zip(&self.now.contacts)
+        {
             for (k, &state) in at.states.iter().enumerate() {
                 contact.trial.set_state(k, state);
             }
@@ -52,7 +58,7 @@ impl<const C: usize> RungeKutta<C> {
             velocity: vec![SVector::zeros(); blocks.len()],
             states: responses.iter().map(|own| own.along.sum()).collect(),
         };
-        all_directions(&mut now.velocity, &self.constraints.fixed);
+        all_directions(&mut now.velocity, &self.scene.constraints.fixed);
         for (velocity, scale) in now.velocity.iter_mut().zip(&scales) {
             *velocity *= *scale;
         }
@@ -102,7 +108,7 @@ impl<const C: usize> RungeKutta<C> {
     /// The responses of all states, in their order.
     fn responses(&self) -> Vec<Response<C>> {
         let mut responses = Vec::new();
-        for (contact, at, _) in numbered(&self.contacts, &self.now) {
+        for (contact, at, _) in numbered(&self.scene.contacts, &self.now) {
             let laws = contact.trial.laws();
             for (k, &state) in at.states.iter().enumerate() {
                 let vertex = contact.part.vertices[k];

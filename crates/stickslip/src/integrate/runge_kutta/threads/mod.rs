@@ -8,6 +8,6 @@ mod one;
 mod shares;
 
 #[cfg(not(feature = "rayon"))]
-pub(super) use one::{Threads, in_shares, on_shares};
+pub(super) use one::{Threads, in_shares, on_shares, on_two_shares};
 #[cfg(feature = "rayon")]
-pub(super) use shares::{Threads, in_shares, on_shares};
+pub(super) use shares::{Threads, in_shares, on_shares, on_two_shares};

@@ -27,3 +27,11 @@ pub(in super::super) fn in_shares<R>(
 pub(in super::super) fn on_shares<T>(field: &mut [T], work: &impl Fn(usize, &mut [T])) {
     work(0, field);
 }
+
+pub(in super::super) fn on_two_shares<S, T>(
+    first: &mut [S],
+    second: &mut [T],
+    work: &impl Fn(usize, &mut [S], &mut [T]),
+) {
+    work(0, first, second);
+}

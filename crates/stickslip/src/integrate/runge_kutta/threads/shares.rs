@@ -101,3 +101,33 @@ fn on_share<T: Send>(
         || on_share(first + middle, right, most, work),
     );
 }
+
+/// Works on each share of two fields of the same size, of which the second may be empty, with the number of the first entry.
+pub(in super::super) fn on_two_shares<S: Send, T: Send>(
+    first: &mut [S],
+    second: &mut [T],
+    work: &(impl Fn(usize, &mut [S], &mut [T]) + Sync),
+) {
+    match most(first.len()) {
+        Some(most) => on_two(0, (first, second), most, work),
+        None => work(0, first, second),
+    }
+}
+
+fn on_two<S: Send, T: Send>(
+    at: usize,
+    (first, second): (&mut [S], &mut [T]),
+    most: usize,
+    work: &(impl Fn(usize, &mut [S], &mut [T]) + Sync),
+) {
+    if first.len() <= most {
+        return work(at, first, second);
+    }
+    let middle = middle(first.len(), most);
+    let left = first.split_at_mut(middle);
+    let right = second.split_at_mut(middle.min(second.len()));
+    rayon::join(
+        || on_two(at, (left.0, right.0), most, work),
+        || on_two(at + middle, (left.1, right.1), most, work),
+    );
+}

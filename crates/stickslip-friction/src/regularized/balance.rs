@@ -1,6 +1,6 @@
-//! The balance of traction, friction and radiation damping, without a branch, of some cells.
+//! The local problem of regularised friction, without a branch, of some nodes.
 
-use super::elementary::{cosh_sinh, exp, exp_m1, rough_exp, rough_ln};
+use stickslip_core::lanes::elementary::{cosh_sinh, exp, exp_m1, rough_exp, rough_ln};
 
 /// The `ln(c/2)` from which on friction is less than rounding of the traction: `y/t = c/(1 + c)`.
 const VISCOUS: f64 = 40.0;
@@ -97,7 +97,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::many_cells::double::Double;
+    use crate::regularized::double::Double;
 
     /// The balance of one cell.
     fn balance(t: f64, l: f64) -> f64 {

@@ -1,8 +1,16 @@
 //! Rate- and state-dependent friction without a cut-off.
 
+mod balance;
+#[cfg(test)]
+mod double;
+mod many_nodes;
+
 use stickslip_state::{Dieterich, LogTheta, Ruina};
 
-use crate::{DieterichRuina, FrictionError, FrictionLaw, Response, dieterich_ruina::ln_ratio};
+use crate::{
+    DieterichRuina, FrictionError, FrictionLaw, Response, SlipRates, dieterich_ruina::ln_ratio,
+};
+use many_nodes::ManyNodes;
 
 /// The `mu/a` from which on `asinh` and the logarithm agree to rounding.
 const LOGARITHMIC: f64 = 20.0;
@@ -230,6 +238,10 @@ impl FrictionLaw for RegularizedDieterichRuina {
         } else {
             rate.min(free)
         }
+    }
+
+    fn slip_rates(laws: &[Self]) -> Option<Box<dyn SlipRates<LogTheta>>> {
+        Some(Box::new(ManyNodes::new(laws)))
     }
 
     fn validate(&self) -> Result<(), FrictionError> {

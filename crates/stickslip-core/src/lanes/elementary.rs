@@ -32,7 +32,7 @@ fn polynomial<const N: usize>(x: f64, coefficients: [[f64; 2]; N]) -> f64 {
 
 /// `exp(x)`, to two units in the last place: 0 below -708, `exp(709)` above 709.
 #[inline(always)]
-pub(super) fn exp(x: f64) -> f64 {
+pub fn exp(x: f64) -> f64 {
     let [r, power] = reduced(x);
     let value = (1.0 + exp_m1_of_rest(r)) * power;
     if x < NORMAL[0] { 0.0 } else { value }
@@ -42,7 +42,7 @@ pub(super) fn exp(x: f64) -> f64 {
 ///
 /// It is `(2^n - 1) + 2^n (exp(r) - 1)`, two numbers of one sign unless `n = 0`, where the first vanishes.
 #[inline(always)]
-pub(super) fn exp_m1(x: f64) -> f64 {
+pub fn exp_m1(x: f64) -> f64 {
     let [r, power] = reduced(x);
     (power - 1.0) + power * exp_m1_of_rest(r)
 }
@@ -63,7 +63,7 @@ fn exp_m1_of_rest(r: f64) -> f64 {
 
 /// `exp(x)` to 1e-4 of it, with the same ends.
 #[inline(always)]
-pub(super) fn rough_exp(x: f64) -> f64 {
+pub fn rough_exp(x: f64) -> f64 {
     let [r, power] = reduced(x);
     let value = (1.0 + r * (1.0 + r * (0.5 + r * (1.0 / 6.0 + r * (1.0 / 24.0))))) * power;
     if x < NORMAL[0] { 0.0 } else { value }
@@ -91,7 +91,7 @@ fn reduced(x: f64) -> [f64; 2] {
 /// power 21; the remainder is below `1e-18 f`. The order of the sum is that of FreeBSD's `e_log.c`:
 /// `ln(1 + f) = f - (f^2/2 - s (f^2/2 + R))`.
 #[inline(always)]
-pub(super) fn ln(x: f64) -> f64 {
+pub fn ln(x: f64) -> f64 {
     const SERIES: [[f64; 2]; 5] = [
         [2.0 / 3.0, 2.0 / 5.0],
         [2.0 / 7.0, 2.0 / 9.0],
@@ -109,7 +109,7 @@ pub(super) fn ln(x: f64) -> f64 {
 
 /// `ln(x)` of a normal number `x > 0`, to 0.005.
 #[inline(always)]
-pub(super) fn rough_ln(x: f64) -> f64 {
+pub fn rough_ln(x: f64) -> f64 {
     let [k, f] = parts(x);
     k * LN_2[0] + f * (1.0 - f * (0.5 - 0.3 * f))
 }
@@ -131,7 +131,7 @@ fn parts(x: f64) -> [f64; 2] {
 /// `[cosh(x), sinh(x)]` for `abs(x) <= 0.05`, by Taylor's polynomials of degree 8 and 7; the remainders are below `3e-20`
 /// and `2e-16 abs(x)`.
 #[inline(always)]
-pub(super) fn cosh_sinh(x: f64) -> [f64; 2] {
+pub fn cosh_sinh(x: f64) -> [f64; 2] {
     let z = x * x;
     let cosh = 1.0 / 24.0 + z * (1.0 / 720.0 + z * (1.0 / 40_320.0));
     let cosh = 1.0 / 2.0 + z * cosh;
