@@ -11,7 +11,7 @@ use crate::least_squares::Minimum;
 use crate::parameter::Parameter;
 use crate::rounded::rounded;
 use crate::search::Search;
-use crate::table::told;
+use crate::told::told;
 use crate::warning::Warning;
 
 /// A parameter that was fitted to several records.

@@ -89,6 +89,7 @@ mod start;
 mod synthetic;
 mod system;
 mod table;
+mod told;
 mod trend;
 mod warning;
 

@@ -15,11 +15,12 @@ use crate::{FrictionLaw, RegularizedDieterichRuina, SlipRates};
 /// ```
 ///
 /// with `offset = (mu0 + b ln(V0/L))/a - ln(V0/a)`. It has one solution, found by a guess and two steps of third order,
-/// without a branch. The error of `ln V` is that of one rounding of `t` and of `ln c`, `1.1e-16 (t + abs(ln(c/2)))`, for
+/// without a branch. The error of `ln V` is that of two roundings of `t` and one of `ln c`, `1.1e-16 (t + abs(ln(c/2)))`, for
 /// `s > 3`, and below 1e-13 elsewhere.
 pub(super) struct ManyNodes {
     laws: Vec<RegularizedDieterichRuina>,
     a: Parameter,
+    per_a: Parameter,
     b: Parameter,
     offset: Parameter,
     /// `b/a`.
@@ -34,6 +35,7 @@ impl ManyNodes {
             |value: fn(&RegularizedDieterichRuina) -> f64| Parameter::new(laws.iter().map(value));
         Self {
             a: of(|law| law.a),
+            per_a: of(|law| law.a.recip()),
             b: of(|law| law.b),
             offset: of(|law| {
                 let at_zero = law.cut_off().coefficient_at_reference(LogTheta(0.0));
@@ -71,16 +73,17 @@ impl Pass for Problems<'_> {
     #[inline(always)]
     fn block(&mut self, at: usize, count: usize) {
         let first = self.first + at;
-        let mut spare = [None; 5];
-        let [of_a, of_offset, of_slope, of_viscosity, of_drive] = &mut spare;
+        let mut spare = [None; 6];
+        let [of_a, per_a, of_offset, of_slope, of_viscosity, of_drive] = &mut spare;
         let a = self.of.a.load(first, of_a);
+        let per_a = self.of.per_a.load(first, per_a);
         let offset = self.of.offset.load(first, of_offset);
         let slope = self.of.slope.load(first, of_slope);
         let viscosity = load(&self.viscosity[at..], of_viscosity);
         let drive = load(&self.drive[at..], of_drive);
         let (mut t, mut l) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
-            t[k] = drive[k] / a[k];
+            t[k] = drive[k] * per_a[k];
             l[k] = ln(viscosity[k]) - offset[k];
         }
         let states = self.states[at..at + count].iter().zip(slope);

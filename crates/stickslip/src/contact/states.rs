@@ -163,7 +163,7 @@ impl<const C: usize> ContactSet<C> {
         self.set_time(time)?;
         for (contact, from) in self.contacts.iter_mut().zip(&state.contacts) {
             for (k, &state) in from.states.iter().enumerate() {
-                contact.trial.set_state(k, state);
+                contact.trial.states_mut()[k] = state;
             }
         }
         Ok(())

@@ -114,21 +114,16 @@ impl Trial {
         &self.states
     }
 
-    /// Freezes another state.
-    pub(crate) fn set_state(&mut self, k: usize, state: f64) {
-        self.states[k] = state;
-    }
-
-    /// Freezes other states, of all vertices or, without states, of none.
-    pub(crate) fn set_states(&mut self, states: &[f64]) {
-        self.states[..states.len()].copy_from_slice(states);
+    /// The states in use, to freeze others.
+    pub(crate) fn states_mut(&mut self) -> &mut [f64] {
+        &mut self.states
     }
 
     /// The states in use from the `first` on, as friction reads them.
     pub(crate) fn read_states(&self, first: usize, to: &mut [f64]) {
         to.copy_from_slice(&self.states[first..][..to.len()]);
-        for (k, state) in (first..).zip(to).filter(|_| !self.least.is_empty()) {
-            (*state, _) = at_least(*state, self.least(k));
+        for (state, &least) in to.iter_mut().zip(self.least.iter().skip(first)) {
+            (*state, _) = at_least(*state, least);
         }
     }
 

@@ -9,6 +9,7 @@ mod distance;
 mod drive;
 mod error_control;
 mod landing;
+mod progress;
 mod run;
 mod runge_kutta;
 mod sampling;

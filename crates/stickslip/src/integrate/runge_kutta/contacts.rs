@@ -42,11 +42,12 @@ pub(super) fn freeze<const C: usize>(
         if contact.trial.follows_normal_stress() {
             for (k, n) in range.enumerate() {
                 let (state, by) = moved((contact, &at.normal_stress), k, states[n])?;
-                contact.trial.set_state(k, state);
+                contact.trial.states_mut()[k] = state;
                 moved_by[n] = by;
             }
         } else {
-            contact.trial.set_states(&states[range]);
+            let states = &states[range];
+            contact.trial.states_mut()[..states.len()].copy_from_slice(states);
         }
     }
     Ok(())

@@ -44,7 +44,7 @@ impl<const C: usize> RungeKutta<C> {
             .zip(&self.now.contacts)
         {
             for (k, &state) in at.states.iter().enumerate() {
-                contact.trial.set_state(k, state);
+                contact.trial.states_mut()[k] = state;
             }
         }
         let mut blocks = vec![[SMatrix::zeros(); 2]; self.now.velocity.len()];

@@ -127,8 +127,8 @@ fn solve<const C: usize>(
 ) -> bool {
     let range = first..first + mobility.len();
     let (mut pull, mut viscosity, mut drive) = ([0.0; LANES], [1.0; LANES], [0.0; LANES]);
-    // A maximum with zero, as in Tresca's law, forgets what is not a number; a sum does not.
-    let (mut sum, mut all) = (0.0, true);
+    // A maximum with zero, as in Tresca's law, forgets what is not a number.
+    let (mut is_finite, mut all) = (true, true);
     let strengths = contact.forces[range.clone()]
         .iter()
         .zip(resistance)
@@ -140,7 +140,7 @@ fn solve<const C: usize>(
         viscosity[i] = resistance * per_normal;
         drive[i] = (pull[i] - cohesive) * per_normal;
         all &= (viscosity[i] <= f64::MAX) & (drive[i] <= f64::MAX) & (drive[i] > 0.0);
-        sum += (force.sum() + contact.normal_stress[first + i]) * 0.0;
+        is_finite &= (force.sum() + contact.normal_stress[first + i]).is_finite();
     }
     let count = mobility.len();
     let mut read = [0.0; LANES];
@@ -171,7 +171,7 @@ fn solve<const C: usize>(
         } else {
             rates[i]
         };
-        sum += mobility[i] * 0.0;
+        is_finite &= mobility[i].is_finite();
     }
     if !evolutions.is_empty() {
         let follows = contact.trial.follows_normal_stress();
@@ -180,8 +180,8 @@ fn solve<const C: usize>(
         laws.evolutions(first, at, &mut found[..count]);
         for (own, found) in evolutions.iter_mut().zip(found) {
             *own = if follows { found / *own } else { found };
-            sum += found * 0.0;
+            is_finite &= found.is_finite();
         }
     }
-    sum == 0.0
+    is_finite
 }
