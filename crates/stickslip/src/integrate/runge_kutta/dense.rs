@@ -3,18 +3,10 @@
 use stickslip_friction::modulus;
 
 use super::RungeKutta;
-use super::motion::Motion;
+use super::motion::Dense;
 use super::tableau::{DENSE, STAGES};
 use crate::step::Span;
 use crate::{Snapshot, StepFailure, StepState};
-
-/// Copies of a step while times inside of it are shown; allocated on first use.
-pub(super) struct Dense<const C: usize> {
-    /// The first slope of the step, whose place the shown slopes take.
-    first: Motion<C>,
-    from: StepState<C>,
-    to: StepState<C>,
-}
 
 /// The weights of `y_1 - y_0`, `dt k_1`, `dt k_7` and the sum of [`DENSE`] at a share `s` of the step: Hermite's cubic, and
 /// a quartic that vanishes with its slope at both ends,

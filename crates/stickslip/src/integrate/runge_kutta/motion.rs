@@ -4,7 +4,6 @@ use std::ops::{AddAssign, Mul};
 
 use nalgebra::SVector;
 
-use super::dense::Dense;
 use super::tableau::{ERROR, STAGES, WEIGHTS};
 use super::threads::on_shares;
 use crate::StepState;
@@ -29,6 +28,14 @@ pub(super) struct Stages<const C: usize> {
     pub(super) clamped: Vec<f64>,
     /// Copies while times inside of a step are shown.
     pub(super) dense: Option<Box<Dense<C>>>,
+}
+
+/// Copies of a step while times inside of it are shown; allocated on first use.
+pub(super) struct Dense<const C: usize> {
+    /// The first slope of the step, whose place the shown slopes take.
+    pub(super) first: Motion<C>,
+    pub(super) from: StepState<C>,
+    pub(super) to: StepState<C>,
 }
 
 impl<const C: usize> Stages<C> {
