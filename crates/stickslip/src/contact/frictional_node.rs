@@ -7,7 +7,7 @@ use stickslip_friction::{ConvexPotential, FrictionLaw, Interval, LocalModel, Rad
 use stickslip_solvers::Potentials;
 
 use super::balance::balance;
-use super::opening::Gap;
+use super::gap::Gap;
 use super::{ContactSet, DiscreteContact};
 
 /// A vertex with friction and a free tangential component.

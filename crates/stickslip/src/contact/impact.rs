@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::ContactSet;
-use super::opening::Gap;
+use super::gap::Gap;
 use crate::numerics::NUMERICS;
 use crate::{ContactState, StepError, StepState};
 
