@@ -148,6 +148,9 @@ impl JointFitResult {
         let shared: PyResult<Vec<_>> = shared.collect();
         let shared: Vec<String> = shared?.into_iter().flatten().collect();
         let count = self.records.len();
-        Ok(format!("JointFitResult({count} records, {})", shared.join(", ")))
+        Ok(format!(
+            "JointFitResult({count} records, {})",
+            shared.join(", ")
+        ))
     }
 }
