@@ -36,7 +36,7 @@ def test_the_slider_has_the_bits_of_the_command_line(tmp_path: Path) -> None:
     program = os.environ.get("STICKSLIP")
     if program is None:
         pytest.skip("STICKSLIP is not set to the program `stickslip`")
-    arguments = ["--refinements", "2", "--until", "0.05", "--scheme", "newmark", "--out", str(tmp_path)]
+    arguments = ["--refinements", "2", "--until", "0.05", "--scheme", "newmark", "--full-precision", "--out", str(tmp_path)]
     subprocess.run([program, "slider", *arguments], check=True, capture_output=True)
     with open(tmp_path / "history.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

@@ -46,7 +46,7 @@ def test_bp1_is_that_of_the_command_line(tmp_path: Path) -> None:
     program = os.environ.get("STICKSLIP")
     if program is None:
         pytest.skip("STICKSLIP is not set to the program `stickslip`")
-    arguments = ["earthquakes", "--cell", "400", "--years", "10", "--out", str(tmp_path)]
+    arguments = ["earthquakes", "--cell", "400", "--years", "10", "--full-precision", "--out", str(tmp_path)]
     subprocess.run([program, *arguments], check=True, capture_output=True)
     with open(tmp_path / "history.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

@@ -19,7 +19,7 @@ def test_a_reduced_slider_has_the_bits_of_the_command_line(tmp_path: Path) -> No
     program = os.environ.get("STICKSLIP")
     if program is None:
         pytest.skip("STICKSLIP is not set to the program `stickslip`")
-    arguments = ["--refinements", "2", "--until", "0.05", "--scheme", "newmark", "--out", str(tmp_path)]
+    arguments = ["--refinements", "2", "--until", "0.05", "--scheme", "newmark", "--full-precision", "--out", str(tmp_path)]
     reduced = ["--body", "reduced", "--coupling", "fixed-point", "--state-update", "backward-euler"]
     subprocess.run([program, "slider", *arguments, *reduced], check=True, capture_output=True)
     with open(tmp_path / "history.csv", encoding="utf-8") as file:
