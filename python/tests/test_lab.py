@@ -187,10 +187,15 @@ def test_wrong_records_are_named(records: list[object], error: type[Exception], 
 def test_ctrl_c_ends_a_fit_with_what_it_has() -> None:
     # Two states in many records take minutes.
     records = [record for _ in range(20) for record in three()]
+    # A shell starts programs in the background with the signal ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
-    with pytest.raises(KeyboardInterrupt) as raised:
-        ss.joint_fit(records, law="aging", states=2)
+    try:
+        with pytest.raises(KeyboardInterrupt) as raised:
+            ss.joint_fit(records, law="aging", states=2)
+    finally:
+        signal.signal(signal.SIGINT, before)
     partial = raised.value.partial  # type: ignore[attr-defined]
     assert partial is None or partial.interrupted
 
