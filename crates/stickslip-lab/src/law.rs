@@ -111,7 +111,7 @@ impl Law {
         }
     }
 
-    /// The second derivatives; of a custom law, whose sensitivities are differences, there are none.
+    /// The second derivatives. A custom law, whose sensitivities are differences, has none.
     #[inline]
     pub(crate) fn curvature(&self, phi: f64, w: f64, faster: f64) -> Curvature {
         let none = Curvature::default();

@@ -46,7 +46,7 @@ impl Names {
     }
 
     /// The position of the column of this name: as it is written, without regard to case, or without its unit in brackets.
-    /// `None` if there is none.
+    /// `None` without one.
     pub(super) fn position(&self, file: &str, name: &str) -> Result<Option<usize>, TableError> {
         let plain = |text: &str| without_units(text).trim().to_lowercase();
         let wanted = plain(name);

@@ -40,8 +40,8 @@ pub type Numbers = [f64; LANES];
 
 /// A loop over blocks of numbers.
 pub trait Pass {
-    /// Computes the numbers from the `first` on, `count <= LANES` of them. It and what it calls are to be
-    /// `#[inline(always)]`.
+    /// Computes the numbers from the `first` on, `count <= LANES` of them. Mark this function and
+    /// those that it calls `#[inline(always)]`.
     fn block(&mut self, first: usize, count: usize);
 }
 

@@ -29,7 +29,7 @@ pub(crate) struct DiscreteContact<const C: usize> {
     order: Option<Vec<u32>>,
     /// Friction depends on the slip rate at constant state.
     pub(crate) reads_rate: bool,
-    /// The outward normals in the local frames, zero where there are none.
+    /// The outward normals in the local frames, zero where the surface has no normal.
     pub(crate) outward: Vec<SVector<f64, C>>,
     /// The areas that bear its reactions: of all contacts at a vertex with this normal [m^(D-1)].
     pub(crate) bearing: Vec<f64>,

@@ -148,7 +148,7 @@ fn solve<const C: usize>(
     let mut rates = [0.0; LANES];
     let laws = contact.trial.laws();
     if !all {
-        // By themselves: what is held by cohesion, and normal stresses that are none or too small to matter.
+        // Vertices that cohesion holds rest, and those without normal stress, or nearly, slide against viscosity alone.
         for i in 0..count {
             let [_, cohesive] = contact.forces[first + i];
             let is_regular = viscosity[i] <= f64::MAX && drive[i] <= f64::MAX;
