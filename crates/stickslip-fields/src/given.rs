@@ -1,20 +1,21 @@
 //! A pore pressure in closed form.
 
-use super::{FaultField, FaultRates, FieldError, FieldSizes};
+use crate::{FaultField, FaultRates, FieldError, FieldSizes};
 
 /// A pore pressure that is a function of time: `p(t)` at each vertex.
 ///
 /// Its memory is the time.
 ///
 /// ```
-/// use stickslip::fields::GivenPressure;
-/// use stickslip::friction::Tresca;
-/// use stickslip::{BoundaryPart, Contact};
+/// use stickslip_fields::{FaultField, GivenPressure};
 ///
 /// // Injection raises the pressure by 1 kPa/s.
-/// let pressure = GivenPressure::new(1, 0.0, |time, pressure| pressure[0] += 1e3 * time);
-/// let contact = Contact::new(BoundaryPart::point(1.0), Tresca { coefficient: 0.6 }, 50e6).with_field(pressure);
-/// # let _: Contact<_, _, 1> = contact;
+/// let given = GivenPressure::new(1, 0.0, |time, pressure| pressure[0] += 1e3 * time);
+/// let (mut memory, mut pressure) = (vec![0.0], vec![0.0]);
+/// given.advance(&[0.0], [&[], &[]], 60.0, &mut memory)?;
+/// given.pressure(&memory, &mut pressure);
+/// assert_eq!(pressure, [6e4]);
+/// # Ok::<(), stickslip_fields::FieldError>(())
 /// ```
 #[doc(alias("injection", "pore pressure"))]
 pub struct GivenPressure<F> {

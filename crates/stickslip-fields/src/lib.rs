@@ -1,0 +1,19 @@
+//! Fields that live on a fault and advance with it: pore pressure, temperature, porosity.
+//!
+//! | item | meaning |
+//! | --- | --- |
+//! | [`FaultField`] | memory with a linear relaxation, fed by slip, that takes pressure from the normal stress |
+//! | [`FieldSizes`], [`FaultRates`] | its numbers, and what the fault shows it |
+//! | [`Reading`] | a quantity that a field shows, beside its pressure |
+//! | [`GivenPressure`] | a pore pressure in closed form |
+//!
+//! A contact has any number of them; their pressures add.
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+mod error;
+mod field;
+mod given;
+
+pub use error::FieldError;
+pub use field::{FaultField, FaultRates, FieldSizes, Reading};
+pub use given::GivenPressure;
