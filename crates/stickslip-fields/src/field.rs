@@ -31,7 +31,7 @@ pub struct FaultRates<'a> {
 /// A quantity that a field shows beside its pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reading {
-    /// Its name in words, such as `temperature`.
+    /// Its name as that of a column, such as `temperature` or `darcy_velocity`.
     pub name: &'static str,
     /// Its unit, such as `K`.
     pub unit: &'static str,
@@ -126,7 +126,7 @@ pub struct Reading {
 ///     }
 ///
 ///     fn readings(&self) -> &[Reading] {
-///         &[Reading { name: "porosity change", unit: "1" }]
+///         &[Reading { name: "porosity_change", unit: "1" }]
 ///     }
 ///
 ///     fn read(&self, _number: usize, memory: &[f64], values: &mut [f64]) {

@@ -67,6 +67,8 @@ pub struct ContactState<const C: usize> {
     pub fields: Vec<Vec<f64>>,
     /// The pore pressure of all fields \[Pa\]; empty without any. The normal stress is the effective one then.
     pub pore_pressure: Vec<f64>,
+    /// The pore pressure that the opening of the contact takes up, or its least normal stress \[Pa\]; empty without fields.
+    pub excess_pressure: Vec<f64>,
 }
 
 /// The memory of a run with adaptive steps.
@@ -109,6 +111,9 @@ pub struct StepReport {
     /// The contraction of these, without acceleration: how much of a change of the normal stress the next iterate
     /// keeps, the spectral radius as far as the iterates show it. 0 after one iteration.
     pub contraction: f64,
+    /// The number of vertices at which pore pressure exceeds the normal stress, or would leave less than the
+    /// [least one](crate::Contact::with_least_normal_stress), at the end of the step.
+    pub at_least_normal_stress: usize,
 }
 
 impl<const C: usize> StepState<C> {
@@ -145,6 +150,7 @@ impl<const C: usize> StepState<C> {
                 memory.copy_from_slice(other);
             }
             (contact.pore_pressure).copy_from_slice(&other.pore_pressure);
+            (contact.excess_pressure).copy_from_slice(&other.excess_pressure);
         }
         self.last_step = other.last_step;
         self.coupling = other.coupling;
@@ -180,6 +186,7 @@ impl<const C: usize> StepState<C> {
                     contact.fields.iter().map(Vec::len).sum(),
                 ),
                 ("pore pressures", contact.pore_pressure.len()),
+                ("excess pressures", contact.excess_pressure.len()),
             ]
         });
         fields.into_iter().chain(contacts)

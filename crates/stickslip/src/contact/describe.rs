@@ -22,6 +22,9 @@ impl<const C: usize> DiscreteContact<C> {
         }
         fingerprint.function(&of("normal stress"), &stress);
         fingerprint.count(&of("right to open"), usize::from(strength.opens));
+        if let Some(least) = strength.least {
+            fingerprint.bits(&of("least normal stress"), &[least]);
+        }
         if strength.source != Source::Given {
             let is_change = usize::from(strength.source == Source::Change);
             fingerprint.count(&of("normal stress from the body"), is_change);

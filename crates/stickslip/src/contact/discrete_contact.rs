@@ -98,20 +98,34 @@ impl<const C: usize> DiscreteContact<C> {
             .collect();
         let outward: Vec<_> = part.vertices.iter().zip(&outward).map(turned).collect();
         strength.relaxation.check(&strength)?;
+        if let Some(least) = strength.least {
+            let legal = least > 0.0 && least.is_finite();
+            let requirement = "above 0 and finite; allow_opening takes 0";
+            require("least normal stress", requirement, 0, least, legal)?;
+            if strength.source != Source::Given || !bilateral {
+                return Err(SceneError::unsupported(
+                    "Contact::with_least_normal_stress",
+                    "a given normal stress and fixed normal velocities: neither NormalStress::from_body nor \
+                     Contact::with_free_normal",
+                ));
+            }
+        }
         let body = match strength.source {
             Source::Given => None,
             Source::Body | Source::Change => Some(FromBody::new(&strength, bilateral, &part)?),
         };
         let fields = Fields::new(&strength.fields, count)?;
-        if fields.is_some() && (body.is_some() || !bilateral) {
+        let delays = strength.relaxation.delays();
+        let opens = body.is_some() && strength.opens;
+        if fields.is_some() && (delays || opens || !bilateral) {
             return Err(SceneError::unsupported(
                 "Contact::with_field",
-                "a given normal stress and fixed normal velocities: neither NormalStress::from_body nor \
-                 Contact::with_free_normal",
+                "fixed normal velocities and a normal stress without delay: neither Contact::with_free_normal, nor \
+                 NormalStress::from_body with Contact::allow_opening or NormalStress::with_relaxation_time",
             ));
         }
         let normal_stress: Vec<f64> = (0..count)
-            .map(|k| strength.normal_stress.at(k).max(0.0))
+            .map(|k| strength.borne(*strength.normal_stress.at(k)))
             .collect();
         let forces = (0..count).map(|k| {
             let weight = part.weights[k];
@@ -209,7 +223,11 @@ impl<const C: usize> DiscreteContact<C> {
             if self.body.is_none() {
                 self.check_pressure(k, stress)?;
             }
-            self.normal_stress[k] = stress.max(0.0);
+            let borne = self.strength.borne(stress);
+            if let Some(fields) = &mut self.fields {
+                fields.excess[k] = borne - stress;
+            }
+            self.normal_stress[k] = borne;
             self.forces[k][0] = self.part.weights[k] * self.normal_stress[k];
         }
         Ok(())

@@ -31,13 +31,27 @@ impl<const C: usize> DiscreteContact<C> {
 
     /// Refuses a tension that does not open the contact.
     pub(crate) fn check_pressure(&self, k: usize, normal_stress: f64) -> Result<(), StepError> {
-        if normal_stress < 0.0 && !self.strength.opens {
-            return Err(StepError::Tension {
-                vertex: self.part.vertices[k],
-                normal_stress,
-            });
+        if normal_stress < 0.0 && !self.strength.opens && self.strength.least.is_none() {
+            return Err(self.tension(k, normal_stress));
         }
         Ok(())
+    }
+
+    /// The error of a tension: with fields the one of their pore pressure.
+    pub(crate) fn tension(&self, k: usize, normal_stress: f64) -> StepError {
+        let vertex = self.part.vertices[k];
+        match &self.fields {
+            None => StepError::Tension {
+                vertex,
+                normal_stress,
+            },
+            Some(fields) => StepError::PorePressure {
+                vertex,
+                pore_pressure: fields.pressure[k],
+                normal_stress: normal_stress + fields.pressure[k],
+                by_slip: fields.are_fed(),
+            },
+        }
     }
 }
 
@@ -51,7 +65,9 @@ impl<const C: usize> ContactSet<C> {
     pub(crate) fn follow_displacement(&mut self) -> Result<(), SceneError> {
         let all = self.clamping.is_some();
         let mut contacts = self.contacts.iter_mut();
-        let mut following = contacts.by_ref().filter(|own| all || own.fields.is_some());
+        let mut following = contacts
+            .by_ref()
+            .filter(|own| all || own.fields.is_some() && own.body.is_none());
         following.try_for_each(DiscreteContact::follow_displacement)
     }
 
@@ -66,30 +82,16 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
-    /// Writes the normal stresses in trial, and those of a time and a displacement that they follow.
-    pub(crate) fn follow(
-        &mut self,
-        time: f64,
-        displacement: &[SVector<f64, C>],
-        (iterate, image): (&mut [f64], &mut [f64]),
-    ) {
+    /// Finds the changes of normal stresses that follow a displacement at a time.
+    pub(crate) fn follow(&mut self, time: f64, displacement: &[SVector<f64, C>]) {
         if let Some(clamping) = &mut self.clamping {
             clamping.follow(time, displacement);
         }
-        let change = self.clamping.as_ref().map_or(&[][..], |own| &own.values);
-        let places = self.contacts.iter().flat_map(|contact| {
-            let body = contact.body.iter();
-            let places = body.flat_map(|body| body.beside.iter().zip(&body.trial));
-            places.zip(contact.part.vertices.iter().enumerate()).map(
-                move |((beside, trial), (k, &vertex))| {
-                    let change = change.get(vertex).copied().unwrap_or_default();
-                    (*trial, beside + change - contact.pore_pressure(k))
-                },
-            )
-        });
-        for ((iterate, image), place) in iterate.iter_mut().zip(image).zip(places) {
-            (*iterate, *image) = place;
-        }
+    }
+
+    /// The last changes of the normal stress at each vertex of the body; none if it does not follow the displacement.
+    pub(crate) fn change(&self) -> &[f64] {
+        self.clamping.as_ref().map_or(&[], |own| &own.values)
     }
 
     /// Makes normal stresses that follow the displacement those of a state.

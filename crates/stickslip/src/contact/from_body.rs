@@ -81,7 +81,11 @@ impl<const C: usize> DiscreteContact<C> {
     pub(crate) fn use_trial_stress(&mut self) {
         let trial = self.body.iter().flat_map(|body| &body.trial);
         for (k, stress) in trial.enumerate() {
-            self.normal_stress[k] = stress.max(0.0);
+            let borne = self.strength.borne(*stress);
+            if let Some(fields) = &mut self.fields {
+                fields.excess[k] = borne - stress;
+            }
+            self.normal_stress[k] = borne;
             self.forces[k][0] = self.part.weights[k] * self.normal_stress[k];
         }
     }
@@ -107,10 +111,7 @@ impl<const C: usize> DiscreteContact<C> {
                 && !beside_tip
                 && -normal_stress * self.bearing[k] > rounding(self.part.vertices[k])
             {
-                return Err(StepError::Tension {
-                    vertex: self.part.vertices[k],
-                    normal_stress,
-                });
+                return Err(self.tension(k, normal_stress));
             }
         }
         Ok(())
@@ -140,6 +141,13 @@ impl<const C: usize> DiscreteContact<C> {
         };
         if body.cause == Cause::Reaction {
             body.trial.copy_from_slice(&from.normal_stress);
+            if let Some(fields) = &self.fields {
+                // The total one of the step, less the pressure in force.
+                for (k, trial) in body.trial.iter_mut().enumerate() {
+                    let total = *trial + from.pore_pressure[k] - from.excess_pressure[k];
+                    *trial = total - fields.pressure[k];
+                }
+            }
             return;
         }
         self.strength.give_normal_stress(time, &mut body.beside);
@@ -183,7 +191,8 @@ impl<const C: usize> DiscreteContact<C> {
         };
         let mut change = 0.0_f64;
         for (k, &vertex) in self.part.vertices.iter().enumerate() {
-            let stress = body.beside[k] + self.reaction(k, &unbalanced(vertex));
+            let stress =
+                body.beside[k] + self.reaction(k, &unbalanced(vertex)) - self.pore_pressure(k);
             let open = self.opening_axis(k).is_some() && !stays_closed(vertex, stress < 0.0);
             body.trial[k] = if open { 0.0 } else { stress };
             let force = self.part.weights[k] * body.trial[k].max(0.0);
@@ -206,7 +215,8 @@ impl<const C: usize> DiscreteContact<C> {
                 if holds {
                     body.beside[k] -= reaction;
                 }
-                body.trial[k] = body.beside[k] + reaction;
+                let pressure = (self.fields.as_ref()).map_or(0.0, |own| own.pressure[k]);
+                body.trial[k] = body.beside[k] + reaction - pressure;
             }
         }
     }

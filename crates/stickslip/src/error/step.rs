@@ -89,6 +89,21 @@ pub enum StepError {
         /// The normal stress \[Pa\], negative.
         normal_stress: f64,
     },
+    /// The pore pressure of fields on a contact exceeds its normal stress.
+    #[error(
+        "pore pressure at vertex {vertex} is {} Pa, beyond the normal stress of {} Pa: {}",
+        Number(*.pore_pressure), Number(*.normal_stress), hint::PRESSURE
+    )]
+    PorePressure {
+        /// The vertex.
+        vertex: usize,
+        /// The pore pressure \[Pa\].
+        pore_pressure: f64,
+        /// The normal stress \[Pa\], less than that.
+        normal_stress: f64,
+        /// Whether slip feeds a field: a shorter step can succeed then.
+        by_slip: bool,
+    },
     /// The slip rates of a solver take the sides of a contact into each other.
     #[error(
         "the solver lets the sides of a contact penetrate by {} m at vertex {vertex}: {}",
@@ -240,6 +255,7 @@ impl StepError {
             | Self::Data { vertex, .. }
             | Self::Law { vertex, .. }
             | Self::Tension { vertex, .. }
+            | Self::PorePressure { vertex, .. }
             | Self::Penetration { vertex, .. }
             | Self::NotContracting { vertex, .. }
             | Self::NormalStressEffect { vertex, .. }
@@ -258,7 +274,10 @@ impl StepError {
     pub(crate) fn may_pass(&self) -> bool {
         !matches!(
             self,
-            Self::NotUnique { shorter: false, .. } | Self::StepSize { .. } | Self::Tension { .. }
+            Self::NotUnique { shorter: false, .. }
+                | Self::StepSize { .. }
+                | Self::Tension { .. }
+                | Self::PorePressure { by_slip: false, .. }
         )
     }
 

@@ -38,6 +38,14 @@ fn take<const C: usize>(
     (mut crossing, mut sampling): Between<'_, C>,
     observe: &mut Observer<'_, C>,
 ) -> Result<RunReport, StepFailure> {
+    let known = stepper.snapshot().field_stops();
+    let with_known;
+    let steps = if known.is_empty() {
+        steps
+    } else {
+        with_known = steps.clone().stopping_at(known);
+        &with_known
+    };
     stepper.set_stops(&steps.stops);
     let at = stepper.snapshot();
     let refused = |cause| StepFailure::new(at.step + 1, at.time, cause);

@@ -193,6 +193,8 @@ fn contacts_at_rest<const C: usize>(
                 fields: (contact.fields.as_ref()).map_or(Vec::new(), |own| own.memories()),
                 pore_pressure: (contact.fields.as_ref())
                     .map_or(Vec::new(), |own| own.pressure.clone()),
+                excess_pressure: (contact.fields.as_ref())
+                    .map_or(Vec::new(), |own| own.excess.clone()),
             }
         })
         .collect()

@@ -52,6 +52,8 @@ pub struct EventCatalogue<const C: usize> {
     paths: Vec<f64>,
     /// The shear traction after the last step, and before the event \[Pa\].
     tractions: [Vec<SVector<f64, C>>; 2],
+    /// The pore pressure after the last step without event, and before the event \[Pa\]; empty without fields.
+    pressures: [Vec<f64>; 2],
     /// The tractions are those of the last step.
     known: bool,
     passed: Vec<bool>,
@@ -88,6 +90,7 @@ impl<const C: usize> EventCatalogue<C> {
         let seen = at.contact(contact);
         let count = seen.len();
         let vectors = || vec![SVector::zeros(); count];
+        let pressures = vec![0.0; if seen.field(0).is_some() { count } else { 0 }];
         let rates: Vec<f64> = (0..count).map(|k| seen.slip_rate(k)).collect();
         let mut catalogue = Self {
             contact,
@@ -99,6 +102,7 @@ impl<const C: usize> EventCatalogue<C> {
             slips: [vectors(), vectors()],
             paths: vec![0.0; count],
             tractions: [vectors(), vectors()],
+            pressures: [pressures.clone(), pressures],
             known: false,
             passed: vec![false; count],
             under_way: None,
@@ -164,6 +168,7 @@ impl<const C: usize> EventCatalogue<C> {
                 for (k, slip) in self.slips[0].iter_mut().enumerate() {
                     *slip = contact.slip_vector(k);
                 }
+                self.look_at_pressures(&contact);
             } else {
                 self.under_way = Some(event);
             }
@@ -182,6 +187,13 @@ impl<const C: usize> EventCatalogue<C> {
         }
         for (k, (slip, path)) in self.slips[0].iter_mut().zip(&mut self.paths).enumerate() {
             (*slip, *path) = (contact.slip_vector(k), contact.slip_path(k));
+        }
+        self.look_at_pressures(contact);
+    }
+
+    fn look_at_pressures(&mut self, contact: &ContactView<'_, C>) {
+        for (k, pressure) in self.pressures[0].iter_mut().enumerate() {
+            *pressure = contact.pore_pressure(k);
         }
     }
 
@@ -208,6 +220,8 @@ impl<const C: usize> EventCatalogue<C> {
         before.copy_from_slice(last);
         let [last, before] = &mut self.slips;
         before.copy_from_slice(last);
+        let [last, before] = &mut self.pressures;
+        before.copy_from_slice(last);
         self.passed.fill(false);
         self.under_way = Some(Event {
             onset,
@@ -227,6 +241,7 @@ impl<const C: usize> EventCatalogue<C> {
             stress_drop: 0.0,
             friction_work: 0.0,
             released: 0.0,
+            pressure_change: 0.0,
         });
     }
 
@@ -250,7 +265,7 @@ impl<const C: usize> EventCatalogue<C> {
 
     /// Adds up slip, stress drop and extent since the beginning of the event.
     fn add_up(&self, contact: &ContactView<'_, C>, event: &mut Event) {
-        let (mut potency, mut drop) = (0.0, 0.0);
+        let (mut potency, mut drop, mut pressure) = (0.0, 0.0, 0.0);
         for k in 0..contact.len() {
             let weight = contact.weight(k);
             let slip = (contact.slip_vector(k) - self.slips[1][k]).norm();
@@ -268,6 +283,8 @@ impl<const C: usize> EventCatalogue<C> {
                 event.area += weight;
                 potency += weight * slip;
                 drop += weight * (size - left);
+                let before = self.pressures[1].get(k).copied().unwrap_or_default();
+                pressure += weight * (contact.pore_pressure(k) - before);
                 for (c, x) in contact.point(k).into_iter().enumerate() {
                     event.low[c] = event.low[c].min(x);
                     event.high[c] = event.high[c].max(x);
@@ -276,6 +293,7 @@ impl<const C: usize> EventCatalogue<C> {
         }
         event.mean_slip = potency / event.area;
         event.stress_drop = drop / event.area;
+        event.pressure_change = pressure / event.area;
         event.moment = self.shear_modulus * potency;
     }
 }

@@ -14,6 +14,7 @@ use super::table::Entry;
 /// stress drop    sum over the extent of w (tau_0 - tau_1) / sum over the extent of w
 /// friction work  sum over the steps and the contact of w (tau_begin + tau_end)/2 ds along the path
 /// released       sum over the contact of w (tau_0 + tau_1)/2 s
+/// pressure       sum over the extent of w (p_1 - p_0) / sum over the extent of w
 /// ```
 ///
 /// *Before* is the last step below the threshold, *after* the first one below the other rate, and slip is counted
@@ -60,11 +61,13 @@ pub struct Event {
     pub friction_work: f64,
     /// The energy released [J; J/m in 2D].
     pub released: f64,
+    /// The mean change of the pore pressure over the extent \[Pa\]; 0 without fields.
+    pub pressure_change: f64,
 }
 
 impl Event {
     /// The names of [`entries`](Self::entries), for a [`Table`](crate::record::Table).
-    pub const COLUMNS: [&str; 23] = [
+    pub const COLUMNS: [&str; 24] = [
         "onset",
         "arrest",
         "origin",
@@ -88,10 +91,11 @@ impl Event {
         "stress_drop",
         "friction_work",
         "released",
+        "pressure_change",
     ];
 
     /// The values of the event, in the order of the fields.
-    pub fn entries(&self) -> [Entry; 23] {
+    pub fn entries(&self) -> [Entry; 24] {
         let ([a, b, c], [d, e, f]) = (self.low, self.high);
         let [x, y, z] = self.hypocentre;
         [
@@ -118,6 +122,7 @@ impl Event {
             self.stress_drop.into(),
             self.friction_work.into(),
             self.released.into(),
+            self.pressure_change.into(),
         ]
     }
 }

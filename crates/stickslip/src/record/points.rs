@@ -17,6 +17,9 @@ use crate::{FileError, Snapshot};
 /// | `displacement`, `velocity` | the vertex, one column per component (`_x`, `_y`, `_z`) | m, m/s |
 /// | `state`, `slip_rate`, `traction` | the first contact there, see [`ContactView`](crate::ContactView); `NaN` beside one | state law's, m/s, Pa |
 ///
+/// Where a contact has fields, the columns `pore_pressure`, `effective_normal_stress` and the readings of all fields
+/// follow, `NaN` beside a contact that has them.
+///
 /// The memory does not grow with the run. A write error ends the run, and [`finish`](Self::finish) returns it.
 ///
 /// ```
@@ -40,6 +43,8 @@ use crate::{FileError, Snapshot};
 pub struct PointHistories<W> {
     rows: Lasting<W>,
     vertices: Vec<Place>,
+    /// The names of the readings of fields; none without fields.
+    readings: Option<Vec<&'static str>>,
     every: usize,
     /// The steps since the last row.
     since: usize,
@@ -79,9 +84,15 @@ impl<W: io::Write> PointHistories<W> {
         columns.extend(components::<C>("velocity"));
         columns.extend(["state".into(), "slip_rate".into()]);
         columns.extend(components::<C>("traction"));
+        let readings = of_fields(at);
+        if let Some(readings) = &readings {
+            columns.extend(["pore_pressure".into(), "effective_normal_stress".into()]);
+            columns.extend(readings.iter().map(|&name| name.into()));
+        }
         Ok(Self {
             rows: Lasting::new(writer, &columns)?,
             vertices: places?,
+            readings,
             every,
             since: 0,
         })
@@ -111,8 +122,20 @@ impl<W: io::Write> PointHistories<W> {
                 .chain([state, slip_rate])
                 .chain(traction);
             let begin = [at.time.into(), vertex.into()];
-            self.rows
-                .row(begin.into_iter().chain(numbers.map(Entry::Number)));
+            let of_fields = self.readings.iter().flat_map(|names| {
+                let contact = contact.map(|(index, k)| (at.contact(index), k));
+                let contact = contact.filter(|(contact, _)| contact.field(0).is_some());
+                let own = contact.map_or([f64::NAN; 2], |(contact, k)| {
+                    [contact.pore_pressure(k), contact.effective_normal_stress(k)]
+                });
+                let readings = names.iter().map(move |name| {
+                    let values = contact.and_then(|(contact, k)| Some(contact.reading(name)?[k]));
+                    values.unwrap_or(f64::NAN)
+                });
+                own.into_iter().chain(readings)
+            });
+            let numbers = numbers.chain(of_fields).map(Entry::Number);
+            self.rows.row(begin.into_iter().chain(numbers));
         }
         self.rows.flow()
     }
@@ -124,6 +147,19 @@ impl<W: io::Write> PointHistories<W> {
     pub fn finish(self) -> Result<W, FileError> {
         self.rows.finish()
     }
+}
+
+/// The names of the readings of the fields of all contacts, each once; none if there is no field.
+fn of_fields<const C: usize>(at: &Snapshot<'_, C>) -> Option<Vec<&'static str>> {
+    let mut contacts = at.contacts();
+    contacts.find(|contact| contact.field(0).is_some())?;
+    let mut names: Vec<&str> = Vec::new();
+    for reading in at.contacts().flat_map(|contact| contact.readings()) {
+        if !names.contains(&reading.name) {
+            names.push(reading.name);
+        }
+    }
+    Some(names)
 }
 
 /// The names of the components of a vector.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::check::require;
 use super::npy;
-use super::tracing::{Sampler, Tracing, along};
+use super::tracing::{Sampler, Seen, Tracing, along};
 use crate::{FileError, SceneError, Snapshot};
 
 /// Traces of a contact in memory, with a limited number of rows: for a plot.
@@ -90,9 +90,10 @@ impl TraceMemory {
             }
         }
         self.times.push(at.time);
+        let seen = Seen::new(&contact, &self.sampler.tracing.quantities);
         for &k in &self.order {
             let quantities = &self.sampler.tracing.quantities;
-            let values = quantities.iter().map(|quantity| quantity.of(&contact, k));
+            let values = quantities.iter().map(|quantity| seen.of(*quantity, k));
             self.values.extend(values);
         }
     }

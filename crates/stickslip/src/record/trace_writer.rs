@@ -4,7 +4,7 @@ use std::io;
 use std::ops::ControlFlow;
 
 use super::table::{Entry, Lasting};
-use super::tracing::{Sampler, Tracing, along};
+use super::tracing::{Sampler, Seen, Tracing, along};
 #[cfg(doc)]
 use crate::SceneError;
 use crate::{FileError, Snapshot};
@@ -67,7 +67,7 @@ impl<W: io::Write> TraceWriter<W> {
         } else {
             &["along"]
         });
-        columns.extend(sampler.tracing.quantities.iter().map(|q| q.name()));
+        columns.extend(sampler.tracing.quantities.iter().map(|q| q.name(&contact)));
         Ok(Self {
             rows: Lasting::new(writer, &columns)?,
             sampler,
@@ -85,6 +85,7 @@ impl<W: io::Write> TraceWriter<W> {
         let Some(contact) = self.sampler.keep(at) else {
             return ControlFlow::Continue(());
         };
+        let seen = Seen::new(&contact, &self.sampler.tracing.quantities);
         for (&k, &along) in self.order.iter().zip(&self.along) {
             let (point, places) = if self.in_space {
                 (contact.point(k), 3)
@@ -92,7 +93,7 @@ impl<W: io::Write> TraceWriter<W> {
                 ([along, 0.0, 0.0], 1)
             };
             let quantities = &self.sampler.tracing.quantities;
-            let values = quantities.iter().map(|quantity| quantity.of(&contact, k));
+            let values = quantities.iter().map(|quantity| seen.of(*quantity, k));
             let begin = [at.time].into_iter().chain(point.into_iter().take(places));
             self.rows.row(begin.chain(values).map(Entry::Number));
         }

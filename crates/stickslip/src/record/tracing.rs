@@ -18,11 +18,60 @@ pub enum Quantity {
     State,
     /// The shear traction \[Pa\]: in the plane with its sign, in space its modulus.
     Traction,
+    /// The normal stress \[Pa\], positive in compression.
+    NormalStress,
+    /// The pore pressure of all fields \[Pa\].
+    PorePressure,
+    /// The normal stress less the pore pressure \[Pa\].
+    EffectiveNormalStress,
+    /// A reading of the fields, by its number among [`ContactView::readings`]; NaN if there are fewer.
+    Reading(usize),
+}
+
+/// A contact with the readings that quantities ask for.
+pub(super) struct Seen<'a, 'v, const C: usize> {
+    contact: &'v ContactView<'a, C>,
+    readings: Vec<(usize, Vec<f64>)>,
+}
+
+impl<'a, 'v, const C: usize> Seen<'a, 'v, C> {
+    pub(super) fn new(contact: &'v ContactView<'a, C>, quantities: &[Quantity]) -> Self {
+        let numbers = quantities.iter().filter_map(|quantity| match quantity {
+            Quantity::Reading(number) => Some(*number),
+            _ => None,
+        });
+        let readings = numbers.filter_map(|number| {
+            let name = contact.readings().get(number)?.name;
+            Some((number, contact.reading(name)?))
+        });
+        Self {
+            contact,
+            readings: readings.collect(),
+        }
+    }
+
+    /// The value of a quantity at a vertex.
+    pub(super) fn of(&self, quantity: Quantity, k: usize) -> f64 {
+        let Quantity::Reading(number) = quantity else {
+            return quantity.of(self.contact, k);
+        };
+        let mut readings = self.readings.iter();
+        let own = readings.find(|(own, _)| *own == number);
+        own.map_or(f64::NAN, |(_, values)| values[k])
+    }
 }
 
 impl Quantity {
-    pub(super) fn name(self) -> &'static str {
+    /// The name of its column on a contact.
+    pub(super) fn name<const C: usize>(self, contact: &ContactView<'_, C>) -> &'static str {
         match self {
+            Self::NormalStress => "normal_stress",
+            Self::PorePressure => "pore_pressure",
+            Self::EffectiveNormalStress => "effective_normal_stress",
+            Self::Reading(number) => {
+                let readings = contact.readings();
+                readings.get(number).map_or("reading", |own| own.name)
+            }
             Self::Slip => "slip",
             Self::SlipPath => "slip_path",
             Self::SlipRate => "slip_rate",
@@ -31,12 +80,16 @@ impl Quantity {
         }
     }
 
-    pub(super) fn of<const C: usize>(self, contact: &ContactView<'_, C>, k: usize) -> f64 {
+    fn of<const C: usize>(self, contact: &ContactView<'_, C>, k: usize) -> f64 {
         match self {
             Self::Slip => contact.slip(k),
             Self::SlipPath => contact.slip_path(k),
             Self::SlipRate => contact.slip_rate(k),
             Self::State => contact.state(k),
+            Self::NormalStress => contact.normal_stress(k),
+            Self::PorePressure => contact.pore_pressure(k),
+            Self::EffectiveNormalStress => contact.effective_normal_stress(k),
+            Self::Reading(_) => f64::NAN,
             Self::Traction => {
                 let traction = contact.traction(k);
                 // At most one component of a vector in the plane is tangential to an axis.

@@ -153,6 +153,7 @@ impl<const C: usize> Strength<C> {
             relaxation: self.relaxation,
             history: self.history.map(|history| history.at(places)),
             opens: self.opens,
+            least: self.least,
             cohesion: places.select("cohesion", self.cohesion)?,
             shear: shear.transpose()?,
             forced: forced.transpose()?,

@@ -133,6 +133,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
                 relaxation: normal_stress.relaxation,
                 history: None,
                 opens: false,
+                least: None,
                 cohesion: Nodal::Uniform(0.0),
                 shear: None,
                 forced: None,
@@ -231,7 +232,9 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
 
     /// Adds a field that lives on the fault and takes its pore pressure from the normal stress
     /// ([`FaultField`]): friction, and laws with a normal stress effect, see the effective normal stress. Pressures of
-    /// several fields add. A pressure beyond the normal stress is a tension. The contact has a given normal stress, or one
+    /// several fields add. Pressure beyond the normal stress ends the run, unless the contact
+    /// [opens](Contact::allow_opening) or keeps a [least normal stress](Contact::with_least_normal_stress); a step in which
+    /// slip has raised it so far is shortened first. The contact has a given normal stress, or one
     /// that [follows the displacement](crate::Scene::with_normal_stress_change), and fixed normal velocities.
     #[must_use]
     #[doc(alias("pore pressure", "thermal pressurization", "injection"))]
@@ -248,6 +251,18 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     #[must_use]
     pub fn allow_opening(mut self) -> Self {
         self.strength.opens = true;
+        self
+    }
+
+    /// Sets the least normal stress that friction sees \[Pa\], above 0: where the given one less the pore pressure falls
+    /// below, friction keeps it. Reports count these vertices
+    /// ([`StepReport::at_least_normal_stress`](crate::integrate::StepReport::at_least_normal_stress)). The normal stress is
+    /// given, or follows the displacement ([`Scene::with_normal_stress_change`](crate::Scene::with_normal_stress_change)).
+    #[must_use]
+    #[doc(alias("floor"))]
+    pub fn with_least_normal_stress(mut self, stress: f64) -> Self {
+        self.repeat("least normal stress", self.strength.least.is_some());
+        self.strength.least = Some(stress);
         self
     }
 

@@ -72,6 +72,8 @@ pub(crate) struct Strength<const C: usize> {
     pub(crate) history: Option<StressHistory>,
     /// A tension opens the contact.
     pub(crate) opens: bool,
+    /// The least normal stress that friction sees \[Pa\]; none by default.
+    pub(crate) least: Option<f64>,
     pub(crate) cohesion: Nodal<f64>,
     pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
     /// Forced rupture, which weakens friction beside its state.
@@ -89,5 +91,11 @@ impl<const C: usize> Strength<C> {
         if let Some(history) = &mut self.history {
             history.set(time, stresses);
         }
+    }
+
+    /// The normal stress that friction sees of one that is negative in tension \[Pa\].
+    #[inline]
+    pub(crate) fn borne(&self, stress: f64) -> f64 {
+        stress.max(self.least.unwrap_or(0.0))
     }
 }

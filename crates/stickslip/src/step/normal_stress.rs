@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip_time::UpdateFormula;
 
-use super::reactions::{Cause, Reactions};
+use super::reactions::{Bearing, Reactions};
 use super::{Problem, Workspace};
 use crate::laws::StateStep;
 use crate::numerics::NUMERICS;
@@ -42,7 +42,7 @@ impl<const C: usize> Workspace<C> {
         let (dt, inertia) = (step.dt, p.matrices.has_mass());
         reactions.anderson.begin();
         let growth = dt / start.last_step;
-        let reacts = matches!(reactions.cause, Some(Cause::Reactions { .. }));
+        let reacts = reactions.bearing.is_some() && reactions.displacement.is_none();
         let extrapolates = single && growth.is_finite() && reacts;
         if extrapolates {
             (self.contacts).extrapolate_normal_stresses(&start.contacts, growth);
@@ -68,7 +68,7 @@ impl<const C: usize> Workspace<C> {
             }
             self.couple(p, start, dt, single)?;
             iterations += 1;
-            self.react(reactions, start, (formula, step, time))?;
+            self.react(p, reactions, start, (formula, step, time))?;
             let mut error = self.operators.scale(self.contacts.missing_forces());
             if let Some(skew) = &mut reactions.skew {
                 let exact = &mut reactions.image[stresses..];
@@ -138,53 +138,61 @@ impl<const C: usize> Workspace<C> {
     /// misses by the difference.
     fn react(
         &mut self,
+        p: &Problem<C>,
         reactions: &mut Reactions<C>,
         start: &StepState<C>,
         (formula, step, time): (&UpdateFormula, StateStep, f64),
     ) -> Result<(), StepError> {
-        let stresses = (&mut reactions.iterate[..], &mut reactions.image[..]);
-        match &mut reactions.cause {
-            None => {}
-            Some(Cause::Reactions { vertices, products }) => {
-                (self.operators.step()).products_at(vertices, &self.end.velocity, products);
-                self.balance(products, stresses);
+        if let Some(displacement) = &mut reactions.displacement {
+            let c_u = formula.displacement.new_velocity;
+            let predicted = self.end.displacement.iter().zip(&self.end.velocity);
+            for (u, (predicted, v)) in displacement.iter_mut().zip(predicted) {
+                *u = predicted + v * c_u;
             }
-            Some(Cause::Displacement(displacement)) => {
-                let c_u = formula.displacement.new_velocity;
-                let predicted = self.end.displacement.iter().zip(&self.end.velocity);
-                for (u, (predicted, v)) in displacement.iter_mut().zip(predicted) {
-                    *u = predicted + v * c_u;
-                }
-                self.contacts.end_fields(time, &self.end.velocity)?;
-                self.contacts.follow(time, displacement, stresses);
-            }
+            let ended = self.contacts.end_fields(time, &self.end.velocity);
+            agreed(&p.ranks, ended)?;
+            self.contacts.follow(time, displacement);
         }
+        let products = match &mut reactions.bearing {
+            None => &[][..],
+            Some(Bearing { vertices, products }) => {
+                (self.operators.step()).products_at(vertices, &self.end.velocity, products);
+                products
+            }
+        };
+        self.compare(products, (&mut reactions.iterate, &mut reactions.image));
         self.find_missing_forces(&mut reactions.image, start, step);
         Ok(())
     }
 
-    /// Writes the normal stresses in trial, and those that balance the body.
-    fn balance(
+    /// Writes the normal stresses in trial, and those of the velocity.
+    fn compare(
         &mut self,
         products: &[SVector<f64, C>],
         (iterate, image): (&mut [f64], &mut [f64]),
     ) {
-        let mut first = 0;
-        for contact in &mut self.contacts.contacts {
-            let Some(body) = contact.body.take() else {
+        let change = self.contacts.change();
+        let (mut first, mut borne) = (0, 0);
+        for contact in &self.contacts.contacts {
+            let Some(body) = &contact.body else {
                 continue;
             };
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-                let unbalanced = self.load[vertex] - products[first + k];
-                let stress = if contact.is_open(k, &self.end.velocity[vertex]) {
+                let stress = if !contact.reacts() {
+                    let change = change.get(vertex).copied().unwrap_or_default();
+                    body.beside[k] + change - contact.pore_pressure(k)
+                } else if contact.is_open(k, &self.end.velocity[vertex]) {
                     0.0
                 } else {
-                    body.beside[k] + contact.reaction(k, &unbalanced)
+                    let unbalanced = self.load[vertex] - products[borne + k];
+                    body.beside[k] + contact.reaction(k, &unbalanced) - contact.pore_pressure(k)
                 };
                 (iterate[first + k], image[first + k]) = (body.trial[k], stress);
             }
             first += body.trial.len();
-            contact.body = Some(body);
+            if contact.reacts() {
+                borne += body.trial.len();
+            }
         }
         self.contacts.share_pressure(image);
     }
@@ -209,7 +217,7 @@ impl<const C: usize> Workspace<C> {
                     *stress = contact.relax_stress(k, step, from, *stress, rates);
                 }
                 let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
-                let missing = stress.max(0.0) - body.trial[k].max(0.0);
+                let missing = contact.strength.borne(*stress) - contact.strength.borne(body.trial[k]);
                 body.missing[k] = missing.abs() * contact.part.weights[k] * coefficient;
             }
             images = others;

@@ -7,16 +7,13 @@ use super::skew::Skew;
 use crate::body::Matrices;
 use crate::contact::ContactSet;
 
-/// The cause of the normal stresses of a velocity.
+/// The reactions of the body.
 #[derive(Clone)]
-pub(super) enum Cause<const C: usize> {
-    /// The reactions of the body: the vertices that bear them, and the products of the operator there.
-    Reactions {
-        vertices: Vec<usize>,
-        products: Vec<SVector<f64, C>>,
-    },
-    /// The displacement at the end of the stage.
-    Displacement(Vec<SVector<f64, C>>),
+pub(super) struct Bearing<const C: usize> {
+    /// The vertices that bear them.
+    pub(super) vertices: Vec<usize>,
+    /// The products of the operator there.
+    pub(super) products: Vec<SVector<f64, C>>,
 }
 
 /// Workspace for the iteration of rates with normal stresses and skew forces. Iterates and images hold the former, one per
@@ -24,8 +21,10 @@ pub(super) enum Cause<const C: usize> {
 #[derive(Clone)]
 pub(crate) struct Reactions<const C: usize> {
     pub(super) anderson: Anderson,
-    /// None if all normal stresses are given.
-    pub(super) cause: Option<Cause<C>>,
+    /// None without a normal stress by reactions.
+    pub(super) bearing: Option<Bearing<C>>,
+    /// The displacement at the end of the stage; none without a normal stress that follows it or fields.
+    pub(super) displacement: Option<Vec<SVector<f64, C>>>,
     /// None if the stiffness is symmetric.
     pub(super) skew: Option<Skew<C>>,
     /// The number of normal stresses.
@@ -54,18 +53,20 @@ impl<const C: usize> Reactions<C> {
         let stresses = weights.len();
         weights.resize(stresses + skew.as_ref().map_or(0, Skew::count), 1.0);
         let zeros = || vec![0.0; weights.len()];
-        let cause = if contacts.clamping().is_some() || contacts.have_fields() {
-            let size = matrices.stiffness().vertex_count();
-            Some(Cause::Displacement(vec![SVector::zeros(); size]))
-        } else {
-            contacts.follow_body().then(|| Cause::Reactions {
-                vertices: parts.flat_map(|part| part.vertices.clone()).collect(),
-                products: vec![SVector::zeros(); stresses],
-            })
-        };
+        let follows = contacts.clamping().is_some() || contacts.have_fields();
+        let size = matrices.stiffness().vertex_count();
+        let reacting = contacts.contacts.iter().filter(|own| own.reacts());
+        let vertices: Vec<usize> = reacting
+            .flat_map(|contact| contact.part.vertices.clone())
+            .collect();
+        let reacts = contacts.contacts.iter().any(|own| own.reacts());
         Some(Box::new(Self {
             anderson: Anderson::new(weights.len()),
-            cause,
+            bearing: reacts.then(|| Bearing {
+                products: vec![SVector::zeros(); vertices.len()],
+                vertices,
+            }),
+            displacement: follows.then(|| vec![SVector::zeros(); size]),
             skew,
             stresses,
             iterate: zeros(),

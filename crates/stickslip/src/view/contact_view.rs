@@ -34,7 +34,7 @@ use crate::{ContactState, SceneError, StepState};
 /// ```
 #[derive(Clone, Copy)]
 pub struct ContactView<'a, const C: usize> {
-    contact: &'a DiscreteContact<C>,
+    pub(super) contact: &'a DiscreteContact<C>,
     pub(super) at: &'a ContactState<C>,
     state: &'a StepState<C>,
     source: &'a dyn StepView<C>,

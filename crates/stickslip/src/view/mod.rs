@@ -4,6 +4,7 @@ mod contact_view;
 mod global_fields;
 mod normal_stress;
 mod of_simulation;
+mod readings;
 mod residuals;
 mod snapshot;
 mod step_view;

@@ -80,6 +80,13 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         places.next()
     }
 
+    /// The times at which what is known of fields on contacts jumps \[s\]; no step of a run crosses them.
+    pub(crate) fn field_stops(&self) -> Vec<f64> {
+        let contacts = self.source.contacts().contacts.iter();
+        let fields = contacts.filter_map(|contact| contact.fields.as_ref());
+        fields.flat_map(|fields| fields.stops()).collect()
+    }
+
     /// The largest slip rate of all contacts [m/s]; 0 without contacts.
     pub fn max_slip_rate(&self) -> f64 {
         let contacts = self.source.contacts().contacts.iter();

@@ -101,8 +101,9 @@ impl<const C: usize> ContactSet<C> {
         Ok(())
     }
 
-    /// Writes memories and pressures of the end of a step.
-    pub(crate) fn accept_fields(&self, into: &mut [ContactState<C>]) {
+    /// Writes memories and pressures of the end of a step, and returns the number of vertices that bear no more pressure.
+    pub(crate) fn accept_fields(&self, into: &mut [ContactState<C>]) -> usize {
+        let mut count = 0;
         for (contact, into) in self.contacts.iter().zip(into) {
             let Some(fields) = &contact.fields else {
                 continue;
@@ -111,6 +112,9 @@ impl<const C: usize> ContactSet<C> {
                 memory.copy_from_slice(&field.memory);
             }
             into.pore_pressure.copy_from_slice(&fields.pressure);
+            into.excess_pressure.copy_from_slice(&fields.excess);
+            count += fields.excess.iter().filter(|&&excess| excess > 0.0).count();
         }
+        count
     }
 }

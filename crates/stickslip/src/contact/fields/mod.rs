@@ -16,6 +16,8 @@ pub(crate) struct Fields {
     fields: Vec<Field>,
     /// The pore pressure in force, of all fields \[Pa\].
     pub(crate) pressure: Vec<f64>,
+    /// The pressure beyond the normal stress, or beyond what leaves the least one, taken up by the opening \[Pa\].
+    pub(crate) excess: Vec<f64>,
     /// The time from the start of the step to its end \[s\].
     dt: f64,
     shown: Shown,
@@ -33,8 +35,7 @@ struct Field {
     sources: [Vec<f64>; 2],
     /// The sources of the stages of an explicit method; empty before its first step.
     stages: Vec<Vec<f64>>,
-    /// A memory of zeros, and one of an error.
-    rest: Vec<f64>,
+    /// The memory of other sources, for the error of an explicit step.
     missed: Vec<f64>,
 }
 
@@ -85,7 +86,6 @@ impl Fields {
             fields.push(Field {
                 law: Arc::clone(law),
                 start: memory.clone(),
-                rest: vec![0.0; memory.len()],
                 missed: memory.clone(),
                 memory,
                 sources: [vec![0.0; sources], vec![0.0; sources]],
@@ -95,6 +95,7 @@ impl Fields {
         let mut fields = Self {
             fields,
             pressure: zeros(),
+            excess: zeros(),
             off: zeros(),
             dt: 0.0,
             shown: Shown {
@@ -122,6 +123,21 @@ impl Fields {
         for field in &self.fields {
             field.law.pressure(&field.memory, &mut self.pressure);
         }
+    }
+
+    /// The times at which what is known of the fields jumps \[s\].
+    pub(crate) fn stops(&self) -> impl Iterator<Item = f64> {
+        self.fields.iter().flat_map(|field| field.law.stops())
+    }
+
+    /// Whether slip feeds any of the fields.
+    pub(crate) fn are_fed(&self) -> bool {
+        self.fields.iter().any(|field| !field.sources[0].is_empty())
+    }
+
+    /// Each field with its law.
+    pub(crate) fn laws(&self) -> impl Iterator<Item = &dyn FaultField> {
+        self.fields.iter().map(|field| &*field.law)
     }
 
     /// Takes the memories of a state, and puts their pressure in force.
@@ -156,6 +172,26 @@ impl Fields {
             };
             field.law.source(&at, &field.memory, source);
         }
+    }
+
+    /// Puts the pressure after `dt` in force, with the sources of both ends; the memories hold what the sources read.
+    fn find_pressure(&mut self, dt: f64) -> Result<(), StepError> {
+        self.pressure.fill(0.0);
+        for (number, field) in self.fields.iter_mut().enumerate() {
+            let Field {
+                law,
+                start,
+                memory,
+                sources: [begin, end],
+                ..
+            } = field;
+            law.pressure_after(start, [begin, end], dt, &mut self.pressure, memory)
+                .map_err(|source| StepError::Field {
+                    field: number,
+                    source,
+                })?;
+        }
+        Ok(())
     }
 
     /// Advances the memories from the start of the step by `dt`, with the sources of both ends.

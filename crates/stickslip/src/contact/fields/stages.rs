@@ -42,7 +42,8 @@ impl<const C: usize> ContactSet<C> {
     }
 
     /// Advances the fields from a state to a stage at `node` of a step of `dt`, with the source there that the `weights`
-    /// of the stages before make: linear in time, and exact for sources that are.
+    /// of the stages before make: linear in time, and exact for sources that are. The memories are those of the stage at
+    /// the last one, which ends the step.
     ///
     /// ```text
     /// s* = s_0 + (2/c) sum of a_j (s_j - s_0)
@@ -51,7 +52,7 @@ impl<const C: usize> ContactSet<C> {
         &mut self,
         from: &StepState<C>,
         weights: &[f64],
-        (node, dt): (f64, f64),
+        (node, dt, last): (f64, f64, bool),
     ) -> Result<(), StepError> {
         for (contact, from) in self.contacts.iter_mut().zip(&from.contacts) {
             let Some(fields) = &mut contact.fields else {
@@ -61,7 +62,11 @@ impl<const C: usize> ContactSet<C> {
                 field.start.copy_from_slice(memory);
                 field.combine(weights, 2.0 / node);
             }
-            fields.advance(node * dt)?;
+            if last {
+                fields.advance(node * dt)?;
+            } else {
+                fields.find_pressure(node * dt)?;
+            }
         }
         Ok(())
     }
@@ -72,7 +77,7 @@ impl<const C: usize> ContactSet<C> {
     /// It has two parts: that of the embedded method, by its `difference` of weights, and that of a source which curves
     /// while the memory relaxes. The linear source has the integral of the step, and so ends by `d = s* - s` beside the
     /// true one; a curvature `b` makes `d = -b dt^2/3` and an error `A b dt^4/36` of the memory, half of what relaxes from
-    /// a source that goes from `-d` to `d`.
+    /// a source that goes from `-d` to `d`. A field whose advance is not exact adds its own.
     pub(crate) fn add_pressure_error(
         &mut self,
         [difference, last]: [&[f64]; 2],
@@ -91,15 +96,23 @@ impl<const C: usize> ContactSet<C> {
             } = &mut **fields;
             off.fill(0.0);
             for field in fields {
-                field.find_error(difference, last);
-                let sources = [&field.sources[0][..], &field.sources[1][..]];
-                let advanced = (field.law).advance(&field.rest, sources, dt, &mut field.missed);
-                for (missed, memory) in field.missed.iter_mut().zip(&field.memory) {
-                    *missed += memory;
+                let [begin, end] = &field.sources;
+                let (start, memory) = (&field.start, &field.memory);
+                (field.law).error(start, [begin, end], dt, memory, off);
+                // A field without sources has no other error.
+                if begin.is_empty() {
+                    field.law.pressure(memory, off);
+                    continue;
                 }
-                // A field without sources has no error.
-                let errs = advanced.is_ok() && !field.sources[0].is_empty();
-                let memory = if errs { &field.missed } else { &field.memory };
+                field.add_error(difference, last);
+                let [begin, end] = &field.sources;
+                let missed = &mut field.missed;
+                let advanced = (field.law).advance(&field.start, [begin, end], dt, missed);
+                let memory = if advanced.is_ok() {
+                    &field.missed
+                } else {
+                    &field.memory
+                };
                 field.law.pressure(memory, off);
             }
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
@@ -110,8 +123,8 @@ impl<const C: usize> ContactSet<C> {
 }
 
 impl Field {
-    /// Sets the sources of the step to those of its error.
-    fn find_error(&mut self, difference: &[f64], last: &[f64]) {
+    /// Adds to the sources of the step those of its error.
+    fn add_error(&mut self, difference: &[f64], last: &[f64]) {
         let [begin, end] = &mut self.sources;
         let [first, .., true_end] = &self.stages[..] else {
             return;
@@ -125,8 +138,8 @@ impl Field {
         };
         for (n, (begin, end)) in begin.iter_mut().zip(end).enumerate() {
             let curved = first[n] + 2.0 * sum(last, n) - true_end[n];
-            *begin = -0.5 * curved;
-            *end = 2.0 * sum(difference, n) + 0.5 * curved;
+            *begin -= 0.5 * curved;
+            *end += 2.0 * sum(difference, n) + 0.5 * curved;
         }
     }
 

@@ -74,7 +74,8 @@ impl<const C: usize> RungeKutta<C> {
         }
         let time = span.at(NODES[stage]);
         let weights = &WEIGHTS[stage][..stage];
-        (self.scene.contacts).advance_to_stage(&self.now, weights, (NODES[stage], dt))?;
+        let to = (NODES[stage], dt, stage == STAGES - 1);
+        (self.scene.contacts).advance_to_stage(&self.now, weights, to)?;
         self.evaluate(stage, time)?;
         self.couple_soft_cells(stage, time, dt)?;
         self.find_field_sources(stage, time);
@@ -119,7 +120,7 @@ impl<const C: usize> RungeKutta<C> {
             }
             at.normal_stress.copy_from_slice(&contact.normal_stress);
         }
-        self.scene.contacts.accept_fields(&mut self.now.contacts);
+        let at_least = self.scene.contacts.accept_fields(&mut self.now.contacts);
         self.now.clock = next;
         self.now.last_step = dt;
         (self.now.displacement).copy_from_slice(&end.displacement);
@@ -128,6 +129,7 @@ impl<const C: usize> RungeKutta<C> {
         self.now.report = StepReport {
             coupling_iterations: STAGES - 1,
             solver_iterations: STAGES - 1,
+            at_least_normal_stress: at_least,
             ..StepReport::default()
         };
         self.drive.balanced = Some(next);

@@ -45,16 +45,26 @@ pub(super) fn surface<const C: usize, const D: usize>(
         values: (0..contact.len()).map(of).collect(),
     };
     let tractions: Vec<SVector<f64, C>> = (0..contact.len()).map(|k| contact.traction(k)).collect();
+    let mut at_points = vec![
+        scalars("slip", &|k| contact.slip(k)),
+        scalars("slip_rate", &|k| contact.slip_rate(k)),
+        scalars("state", &|k| contact.state(k)),
+        vectors::<C, D>("traction", tractions.iter()),
+    ];
+    if contact.field(0).is_some() {
+        at_points.push(scalars("normal_stress", &|k| contact.normal_stress(k)));
+        at_points.push(scalars("pore_pressure", &|k| contact.pore_pressure(k)));
+    }
+    for reading in contact.readings() {
+        if let Some(values) = contact.reading(reading.name) {
+            at_points.push(scalars(reading.name, &|k| values[k]));
+        }
+    }
     Grid {
         points: places(trace.points()),
         corners: trace.faces().iter().flatten().map(|&k| k as i64).collect(),
         shape: if D == 2 { Shape::Line } else { Shape::Triangle },
-        at_points: vec![
-            scalars("slip", &|k| contact.slip(k)),
-            scalars("slip_rate", &|k| contact.slip_rate(k)),
-            scalars("state", &|k| contact.state(k)),
-            vectors::<C, D>("traction", tractions.iter()),
-        ],
+        at_points,
         at_cells: Vec::new(),
     }
 }
