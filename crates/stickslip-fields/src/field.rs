@@ -110,7 +110,7 @@ pub struct Reading {
 ///         let (n, z) = (self.vertices, dt / self.drainage_time);
 ///         // (1 - exp(-z))/z, and (1 - that)/z.
 ///         let first = if z > 0.0 { -(-z).exp_m1() / z } else { 1.0 };
-///         let second = if z > 1e-3 { (1.0 - first) / z } else { 0.5 - z / 6.0 + z * z / 24.0 };
+///         let second = if z > 1e-3 { (1.0 - first) / z } else { 0.5 - z / 6.0 + z * z / 24.0 - z.powi(3) / 120.0 };
 ///         for k in 0..n {
 ///             to[k] = from[k] + 0.5 * dt * (begin[k] + end[k]);
 ///             let source = first * begin[k] + second * (end[k] - begin[k]);

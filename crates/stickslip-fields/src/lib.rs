@@ -6,14 +6,17 @@
 //! | [`FieldSizes`], [`FaultRates`] | its numbers, and what the fault shows it |
 //! | [`Reading`] | a quantity that a field shows, beside its pressure |
 //! | [`GivenPressure`] | a pore pressure in closed form |
+//! | [`check_fault_field`] | the contract of a field, as a check of yours |
 //!
 //! A contact has any number of them; their pressures add.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod conformance;
 mod error;
 mod field;
 mod given;
 
+pub use conformance::{FieldViolation, check_fault_field};
 pub use error::FieldError;
 pub use field::{FaultField, FaultRates, FieldSizes, Reading};
 pub use given::GivenPressure;
