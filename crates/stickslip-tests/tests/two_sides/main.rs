@@ -20,6 +20,7 @@ mod opening;
 mod partly_held;
 mod penetration;
 mod periodic;
+mod pore_pressure;
 mod pressure;
 mod random_block;
 mod reactions;

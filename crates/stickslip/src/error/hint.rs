@@ -6,7 +6,8 @@ pub(super) const SHORTER: &str = "reduce dt";
 pub(super) const MINIMISES: &str = "`check_nonsmooth_solver` tells whether it minimises";
 pub(super) const LOAD: &str = "check functions of with_load_history, and plate rates";
 pub(super) const OPENING: &str = "Contact::allow_opening lets it open, unless its normal motion is prescribed or contacts meet there that do not all open along one normal";
-pub(super) const PRESSURE: &str = "Contact::allow_opening or Contact::with_least_normal_stress takes it";
+pub(super) const PRESSURE: &str =
+    "Contact::allow_opening or Contact::with_least_normal_stress takes it";
 pub(super) const LESS_FRICTION: &str =
     "reduce the coefficient of friction, or dt of a body with inertia";
 pub(super) const ADAPTIVE: &str = "reduce dt or take adaptive steps";
