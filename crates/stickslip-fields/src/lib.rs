@@ -5,6 +5,7 @@
 //! | [`FaultField`] | memory with a linear relaxation, fed by slip, that takes pressure from the normal stress |
 //! | [`FieldSizes`], [`FaultRates`] | its numbers, and what the fault shows it |
 //! | [`Reading`] | a quantity that a field shows, beside its pressure |
+//! | [`Diffusion`] | a pore pressure that diffuses along the fault, with wells |
 //! | [`GivenPressure`] | a pore pressure in closed form |
 //! | [`check_fault_field`] | the contract of a field, as a check of yours |
 //!
@@ -12,11 +13,16 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod conformance;
+mod diffusion;
 mod error;
 mod field;
 mod given;
 
 pub use conformance::{FieldViolation, check_fault_field};
+pub use diffusion::{
+    Boundary, Cells, Diffusion, DiffusionError, Dilatancy, Hydraulics, LeakOff, Line, PerCell,
+    PermeabilityEvolution, Place, RateHistory, Side, Well,
+};
 pub use error::FieldError;
 pub use field::{FaultField, FaultRates, FieldSizes, Reading};
 pub use given::GivenPressure;

@@ -1,0 +1,169 @@
+//! The cells of a fault, and the faces between them.
+
+use super::{DiffusionError, Line};
+
+/// The cells on which pore pressure diffuses.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Cells {
+    /// Cells along a line.
+    Line(Line),
+}
+
+impl From<Line> for Cells {
+    fn from(line: Line) -> Self {
+        Self::Line(line)
+    }
+}
+
+/// A place on the cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// The position along a line \[m\].
+    Along(f64),
+    /// The position along strike and down dip on a plane \[m\].
+    On([f64; 2]),
+    /// A cell, in the order of the vertices.
+    Cell(usize),
+}
+
+impl From<f64> for Place {
+    fn from(position: f64) -> Self {
+        Self::Along(position)
+    }
+}
+
+impl From<[f64; 2]> for Place {
+    fn from(position: [f64; 2]) -> Self {
+        Self::On(position)
+    }
+}
+
+impl Place {
+    pub(super) fn kind(self) -> &'static str {
+        match self {
+            Self::Along(_) => "a position along a line",
+            Self::On(_) => "a position on a plane",
+            Self::Cell(_) => "a cell",
+        }
+    }
+}
+
+impl Cells {
+    /// The number of cells.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Line(line) => line.count(),
+        }
+    }
+
+    /// The size of each cell: a length \[m\] on lines, an area [m^2] else.
+    pub(super) fn sizes(&self) -> Vec<f64> {
+        match self {
+            Self::Line(line) => line.lengths().to_vec(),
+        }
+    }
+
+    /// The vertex of each cell.
+    pub(super) fn vertices(&self) -> Vec<usize> {
+        match self {
+            Self::Line(line) => line.vertices().to_vec(),
+        }
+    }
+
+    /// The number of inner faces.
+    pub(super) fn faces(&self) -> usize {
+        match self {
+            Self::Line(line) => line.count() - 1,
+        }
+    }
+
+    /// The conductances of the inner faces, from the mobility of each cell.
+    pub(super) fn conductances(&self, mobility: &[f64], faces: &mut [f64]) {
+        match self {
+            Self::Line(line) => line.conductances(mobility, faces),
+        }
+    }
+
+    /// Adds the volume rates that flow into each cell from the others.
+    pub(super) fn add_flow(&self, faces: &[f64], pressure: &[f64], into: &mut [f64]) {
+        match self {
+            Self::Line(_) => Line::add_flow(faces, pressure, into),
+        }
+    }
+
+    /// The number of directions along which fluid flows from cell to cell; 0 without directions.
+    pub(super) fn directions(&self) -> usize {
+        match self {
+            Self::Line(_) => 1,
+        }
+    }
+
+    /// Adds half the volume rate along a direction through each of its faces to each cell.
+    pub(super) fn add_half_flow(
+        &self,
+        _direction: usize,
+        faces: &[f64],
+        pressure: &[f64],
+        rates: &mut [f64],
+    ) {
+        match self {
+            Self::Line(_) => Line::add_half_flow(faces, pressure, rates),
+        }
+    }
+
+    /// The length of a face across a direction \[m\]; 1 on a line.
+    pub(super) fn width(&self, _direction: usize) -> f64 {
+        match self {
+            Self::Line(_) => 1.0,
+        }
+    }
+
+    /// The word for their kind.
+    pub(super) fn kind(&self) -> &'static str {
+        match self {
+            Self::Line(_) => "line",
+        }
+    }
+
+    fn place(&self) -> &'static str {
+        match self {
+            Self::Line(_) => "a position along it",
+        }
+    }
+
+    /// The cell of a place.
+    pub(super) fn at(&self, what: &'static str, place: Place) -> Result<usize, DiffusionError> {
+        match (self, place) {
+            (_, Place::Cell(vertex)) => {
+                let cell = self.vertices().iter().position(|&of| of == vertex);
+                cell.ok_or_else(|| DiffusionError::Outside {
+                    what,
+                    position: vec![vertex as f64],
+                    begin: vec![0.0],
+                    end: vec![self.count() as f64 - 1.0],
+                })
+            }
+            (Self::Line(line), Place::Along(position)) => {
+                let [begin, end] = line.ends();
+                line.cell_at(position)
+                    .ok_or_else(|| DiffusionError::Outside {
+                        what,
+                        position: vec![position],
+                        begin: vec![begin],
+                        end: vec![end],
+                    })
+            }
+            _ => Err(self.misplaced(what, place.kind())),
+        }
+    }
+
+    pub(super) fn misplaced(&self, what: &'static str, place: &'static str) -> DiffusionError {
+        DiffusionError::Place {
+            what,
+            place,
+            cells: self.kind(),
+            instead: self.place(),
+        }
+    }
+}

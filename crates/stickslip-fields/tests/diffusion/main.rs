@@ -1,0 +1,11 @@
+//! Pore pressure that diffuses along a fault.
+
+mod bp6;
+mod couplings;
+mod extremes;
+mod march;
+mod rates;
+mod refusals;
+mod terzaghi;
+mod volume;
+mod wells;

@@ -1,0 +1,244 @@
+//! Wrong inputs, each with its own error.
+
+use stickslip_fields::{
+    Boundary, Diffusion, DiffusionError, Dilatancy, Hydraulics, LeakOff, Line,
+    PermeabilityEvolution, Place, RateHistory, Side, Well,
+};
+
+use crate::march::zone;
+
+fn field() -> Diffusion {
+    Diffusion::new(Line::uniform([0.0, 40.0], 4).expect("line"), &zone(1e-13)).expect("field")
+}
+
+fn made(hydraulics: Hydraulics) -> Result<Diffusion, DiffusionError> {
+    Diffusion::new(Line::uniform([0.0, 40.0], 4)?, &hydraulics)
+}
+
+fn evolving(change: impl Fn(&mut PermeabilityEvolution)) -> Result<Diffusion, DiffusionError> {
+    let mut evolution = PermeabilityEvolution {
+        minimum: 1e-15.into(),
+        maximum: 1e-12.into(),
+        slip_distance: 0.1.into(),
+        healing_time: 1e7.into(),
+    };
+    change(&mut evolution);
+    field().with_permeability_evolution(&evolution)
+}
+
+fn dilating(change: impl Fn(&mut Dilatancy)) -> Result<Diffusion, DiffusionError> {
+    let mut dilatancy = Dilatancy {
+        coefficient: 1e-4,
+        reference_velocity: 1e-9,
+        slip_distance: 1e-2,
+        initial_change: 0.0,
+    };
+    change(&mut dilatancy);
+    field().with_dilatancy(dilatancy)
+}
+
+fn rate() -> RateHistory {
+    RateHistory::constant(1e-6).expect("rate")
+}
+
+#[test]
+#[allow(clippy::too_many_lines)]
+fn wrong_inputs_are_refused_with_their_numbers() {
+    let nan = f64::NAN;
+    let cases: Vec<(Result<(), DiffusionError>, &str)> = vec![
+        (
+            Line::uniform([0.0, 1.0], 0).map(drop),
+            "cells of a line: 0 values",
+        ),
+        (
+            Line::uniform([1.0, 1.0], 3).map(drop),
+            "edge of a cell [m] of cell 1 must be beyond",
+        ),
+        (
+            Line::between(&[0.0, 2.0, 1.0]).map(drop),
+            "edge of a cell [m] of cell 2 must be beyond",
+        ),
+        (
+            Line::trace(&[0.0, nan, 1.0]).map(drop),
+            "position of a vertex [m] of cell 1 must be finite",
+        ),
+        (
+            Line::trace(&[0.0, 3.0, 3.0]).map(drop),
+            "position of a vertex [m] of cell 2 must be beyond",
+        ),
+        (
+            made(zone(-1.0)).map(drop),
+            "permeability [m^2] must be at least 0",
+        ),
+        (
+            made(Hydraulics {
+                permeability: vec![1.0, 1.0, nan, 1.0].into(),
+                ..zone(1.0)
+            })
+            .map(drop),
+            "permeability [m^2] of cell 2 must be at least 0 and finite, is NaN",
+        ),
+        (
+            made(Hydraulics {
+                viscosity: 0.0.into(),
+                ..zone(1.0)
+            })
+            .map(drop),
+            "viscosity [Pa s] must be above 0",
+        ),
+        (
+            made(Hydraulics {
+                storage: 0.0.into(),
+                ..zone(1.0)
+            })
+            .map(drop),
+            "storage beta phi [1/Pa] must be above",
+        ),
+        (
+            made(Hydraulics {
+                thickness: (-1.0).into(),
+                ..zone(1.0)
+            })
+            .map(drop),
+            "hydraulic thickness [m] must be",
+        ),
+        (
+            made(Hydraulics {
+                storage: vec![1.0; 3].into(),
+                ..zone(1.0)
+            })
+            .map(drop),
+            "3 values for 4",
+        ),
+        (
+            field().with_side(Side::Top, Boundary::Sealed).map(drop),
+            "side at the top, but the cells form a line",
+        ),
+        (
+            field()
+                .with_side(Side::End, Boundary::Pressure(nan))
+                .map(drop),
+            "pressure of a side [Pa] must be finite",
+        ),
+        (
+            field().with_side(Side::End, Boundary::Flux(nan)).map(drop),
+            "flux of a side [m/s] must be finite",
+        ),
+        (
+            field().with_well(Well::new(41.0, rate())).map(drop),
+            "well at [41.0] lies outside of the cells",
+        ),
+        (
+            field().with_well(Well::new(nan, rate())).map(drop),
+            "well at [NaN] lies outside",
+        ),
+        (
+            field()
+                .with_well(Well::new(Place::Cell(4), rate()))
+                .map(drop),
+            "well at [4.0] lies outside",
+        ),
+        (
+            field().with_well(Well::new([0.0, 1.0], rate())).map(drop),
+            "well at a position on a plane, but the cells",
+        ),
+        (
+            field()
+                .with_well(Well::new(1.0, rate()).with_bore(1e-9, 0.1))
+                .map(drop),
+            "well at a bore of a radius, but the cells form a line",
+        ),
+        (
+            field()
+                .with_well(Well::new(1.0, rate()).with_bore_of_index(0.0, 0.1))
+                .map(drop),
+            "storage of a wellbore",
+        ),
+        (
+            made(zone(0.0))
+                .and_then(|field| field.with_well(Well::new(25.0, rate())))
+                .map(drop),
+            "well in cell 2, which is sealed",
+        ),
+        (
+            field().with_source(&[1.0; 3], rate()).map(drop),
+            "share of a source: 3 values for 4",
+        ),
+        (
+            field()
+                .with_source(&[1.0, -1.0, 0.0, 0.0], rate())
+                .map(drop),
+            "share of a source of cell 1",
+        ),
+        (RateHistory::constant(nan).map(drop), "rate must be finite"),
+        (
+            RateHistory::constant_between(&[]).map(drop),
+            "rows of rates: 0 values",
+        ),
+        (
+            RateHistory::constant_between(&[(1.0, 0.0), (0.5, 1.0)]).map(drop),
+            "row 1 of the rates: time 5e-1 s",
+        ),
+        (
+            RateHistory::linear_between(&[(1.0, 0.0), (2.0, nan)]).map(drop),
+            "row 1 of the rates: time 2e0 s and rate NaN",
+        ),
+        (
+            evolving(|of| of.maximum = 1e-16.into()).map(drop),
+            "greatest permeability [m^2] of cell 0 must be at least",
+        ),
+        (
+            evolving(|of| of.minimum = 2e-13.into()).map(drop),
+            "initial permeability [m^2] of cell 0 must be from",
+        ),
+        (
+            evolving(|of| of.slip_distance = 0.0.into()).map(drop),
+            "slip distance of permeability [m] must be above 0",
+        ),
+        (
+            evolving(|of| of.healing_time = nan.into()).map(drop),
+            "healing time of permeability [s] must be above 0",
+        ),
+        (
+            dilating(|of| of.coefficient = -1.0).map(drop),
+            "dilatancy coefficient must be at least 0",
+        ),
+        (
+            dilating(|of| of.reference_velocity = 0.0).map(drop),
+            "reference velocity of dilatancy [m/s] must be above",
+        ),
+        (
+            dilating(|of| of.slip_distance = 0.0).map(drop),
+            "slip distance of dilatancy [m] must be above 0",
+        ),
+        (
+            field()
+                .with_leak_off(&LeakOff {
+                    drainage_time: 0.0.into(),
+                    far_pressure: 0.0.into(),
+                })
+                .map(drop),
+            "drainage time [s] must be above 0",
+        ),
+        (
+            field().with_initial_pressure(nan).map(drop),
+            "initial pressure [Pa] must be finite",
+        ),
+        (
+            field().starting_at(nan).map(drop),
+            "start time [s] must be finite",
+        ),
+        (
+            field().with_vertices(&[0, 4]).map(drop),
+            "cell of a vertex of cell 1 must be below",
+        ),
+        (
+            field().with_vertices(&[2, 2]).map(drop),
+            "cell of a vertex of cell 1 must be a cell of no other",
+        ),
+    ];
+    for (result, expected) in cases {
+        let error = result.expect_err(expected).to_string();
+        assert!(error.contains(expected), "{error:?} without {expected:?}");
+    }
+}
