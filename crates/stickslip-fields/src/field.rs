@@ -187,6 +187,26 @@ pub trait FaultField: Send + Sync {
         Ok(())
     }
 
+    /// Advances a field without sources by `dt`, and adds its pore pressure after each share of it, the last of which is 1.
+    ///
+    /// By default it advances to each share.
+    ///
+    /// # Errors
+    /// Those of [`advance`](FaultField::advance).
+    fn pressures_within(
+        &self,
+        from: &[f64],
+        dt: f64,
+        shares: &[f64],
+        pressures: &mut [Vec<f64>],
+        to: &mut [f64],
+    ) -> Result<(), FieldError> {
+        for (share, pressure) in shares.iter().zip(pressures) {
+            self.pressure_after(from, [&[], &[]], share * dt, pressure, to)?;
+        }
+        self.advance(from, [&[], &[]], dt, to)
+    }
+
     /// Adds the estimated error of the advance by `dt`, as a pore pressure at each vertex \[Pa\], with its sign; none by
     /// default, as for an exact advance. `to` is the memory that the advance led to.
     fn error(

@@ -35,6 +35,8 @@ struct Field {
     sources: [Vec<f64>; 2],
     /// The sources of the stages of an explicit method; empty before its first step.
     stages: Vec<Vec<f64>>,
+    /// The pressure at the stages of an explicit method, of a field without sources.
+    known: Vec<Vec<f64>>,
     /// The memory of other sources, for the error of an explicit step.
     missed: Vec<f64>,
 }
@@ -90,6 +92,7 @@ impl Fields {
                 memory,
                 sources: [vec![0.0; sources], vec![0.0; sources]],
                 stages: Vec::new(),
+                known: Vec::new(),
             });
         }
         let mut fields = Self {
@@ -174,10 +177,17 @@ impl Fields {
         }
     }
 
-    /// Puts the pressure after `dt` in force, with the sources of both ends; the memories hold what the sources read.
-    fn find_pressure(&mut self, dt: f64) -> Result<(), StepError> {
+    /// Puts the pressure of a stage after `dt` in force, with the sources of both ends; the memories of fields with sources
+    /// hold what these read.
+    fn find_pressure(&mut self, dt: f64, stage: usize) -> Result<(), StepError> {
         self.pressure.fill(0.0);
         for (number, field) in self.fields.iter_mut().enumerate() {
+            if let Some(known) = field.known.get(stage) {
+                for (pressure, known) in self.pressure.iter_mut().zip(known) {
+                    *pressure += known;
+                }
+                continue;
+            }
             let Field {
                 law,
                 start,
@@ -197,6 +207,10 @@ impl Fields {
     /// Advances the memories from the start of the step by `dt`, with the sources of both ends.
     fn advance(&mut self, dt: f64) -> Result<(), StepError> {
         for (number, field) in self.fields.iter_mut().enumerate() {
+            // Known ones of an explicit step have advanced with its first stage.
+            if !field.known.is_empty() {
+                continue;
+            }
             let Field {
                 law,
                 start,

@@ -41,8 +41,8 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
-    /// Advances the fields from a state to a stage at `node` of a step of `dt`, with the source there that the `weights`
-    /// of the stages before make: linear in time, and exact for sources that are. The memories are those of the stage at
+    /// Advances the fields from a state to the next stage of a step of `dt`, with the source there that the `weights` of
+    /// the stages before make: linear in time, and exact for sources that are. The memories are those of the stage at
     /// the last one, which ends the step.
     ///
     /// ```text
@@ -52,20 +52,27 @@ impl<const C: usize> ContactSet<C> {
         &mut self,
         from: &StepState<C>,
         weights: &[f64],
-        (node, dt, last): (f64, f64, bool),
+        nodes: &[f64],
+        dt: f64,
     ) -> Result<(), StepError> {
+        let (stage, node) = (weights.len(), nodes[weights.len()]);
         for (contact, from) in self.contacts.iter_mut().zip(&from.contacts) {
             let Some(fields) = &mut contact.fields else {
                 continue;
             };
-            for (field, memory) in fields.fields.iter_mut().zip(&from.fields) {
-                field.start.copy_from_slice(memory);
+            if stage == 1 {
+                for (field, memory) in fields.fields.iter_mut().zip(&from.fields) {
+                    field.start.copy_from_slice(memory);
+                }
+                fields.find_known(&nodes[1..], dt)?;
+            }
+            for field in &mut fields.fields {
                 field.combine(weights, 2.0 / node);
             }
-            if last {
+            if stage + 1 == nodes.len() {
                 fields.advance(node * dt)?;
             } else {
-                fields.find_pressure(node * dt)?;
+                fields.find_pressure(node * dt, stage - 1)?;
             }
         }
         Ok(())
@@ -119,6 +126,32 @@ impl<const C: usize> ContactSet<C> {
                 change[vertex] -= off[k] - pressure[k];
             }
         }
+    }
+}
+
+impl Fields {
+    /// Advances the fields without sources to the end of a step, with their pressures at the nodes of its later stages.
+    fn find_known(&mut self, nodes: &[f64], dt: f64) -> Result<(), StepError> {
+        let count = self.pressure.len();
+        for (number, field) in self.fields.iter_mut().enumerate() {
+            if !field.sources[0].is_empty() {
+                continue;
+            }
+            if field.known.is_empty() {
+                field.known = vec![vec![0.0; count]; nodes.len()];
+            }
+            for pressure in &mut field.known {
+                pressure.fill(0.0);
+            }
+            let (known, memory) = (&mut field.known, &mut field.memory);
+            (field.law)
+                .pressures_within(&field.start, dt, nodes, known, memory)
+                .map_err(|source| StepError::Field {
+                    field: number,
+                    source,
+                })?;
+        }
+        Ok(())
     }
 }
 

@@ -74,8 +74,7 @@ impl<const C: usize> RungeKutta<C> {
         }
         let time = span.at(NODES[stage]);
         let weights = &WEIGHTS[stage][..stage];
-        let to = (NODES[stage], dt, stage == STAGES - 1);
-        (self.scene.contacts).advance_to_stage(&self.now, weights, to)?;
+        (self.scene.contacts).advance_to_stage(&self.now, weights, &NODES, dt)?;
         self.evaluate(stage, time)?;
         self.couple_soft_cells(stage, time, dt)?;
         self.find_field_sources(stage, time);
