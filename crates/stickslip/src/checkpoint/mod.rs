@@ -15,7 +15,7 @@ use crate::{FileError, Snapshot, StepState, Stepper};
 const FORMAT: Format = Format {
     kind: "checkpoint",
     magic: *b"\x89slip\r\n\x1a",
-    version: 4,
+    version: 5,
 };
 
 /// The marks of a scene, and the time \[s\].
