@@ -6,6 +6,7 @@
 //! | [`FieldSizes`], [`FaultRates`] | its numbers, and what the fault shows it |
 //! | [`Reading`] | a quantity that a field shows, beside its pressure |
 //! | [`GivenPressure`] | a pore pressure in closed form |
+//! | [`ThermalPressurization`], [`ShearHeating`] | heat of friction across a fault, with the pore fluid that it pressurizes and alone; of a [`ShearZone`] and a [`PoreFluid`], each value [`PerVertex`] |
 //! | [`check_fault_field`] | the contract of a field, as a check of yours |
 //!
 //! A contact has any number of them; their pressures add.
@@ -15,8 +16,12 @@ mod conformance;
 mod error;
 mod field;
 mod given;
+mod thermal;
 
 pub use conformance::{FieldViolation, check_fault_field};
 pub use error::FieldError;
 pub use field::{FaultField, FaultRates, FieldSizes, Reading};
 pub use given::GivenPressure;
+pub use thermal::{
+    PerVertex, PoreFluid, ShearHeating, ShearZone, ThermalError, ThermalPressurization,
+};
