@@ -7,6 +7,7 @@
 //! | [`Reading`] | a quantity that a field shows, beside its pressure |
 //! | [`Diffusion`] | a pore pressure that diffuses along the fault, with wells |
 //! | [`GivenPressure`] | a pore pressure in closed form |
+//! | [`ThermalPressurization`], [`ShearHeating`] | heat of friction across a fault, with the pore fluid that it pressurizes and alone; of a [`ShearZone`] and a [`PoreFluid`], each value [`PerVertex`] |
 //! | [`check_fault_field`] | the contract of a field, as a check of yours |
 //!
 //! A contact has any number of them; their pressures add.
@@ -17,6 +18,7 @@ mod diffusion;
 mod error;
 mod field;
 mod given;
+mod thermal;
 
 pub use conformance::{FieldViolation, check_fault_field};
 pub use diffusion::{
@@ -26,3 +28,6 @@ pub use diffusion::{
 pub use error::FieldError;
 pub use field::{FaultField, FaultRates, FieldSizes, Reading};
 pub use given::GivenPressure;
+pub use thermal::{
+    PerVertex, PoreFluid, ShearHeating, ShearZone, ThermalError, ThermalPressurization,
+};

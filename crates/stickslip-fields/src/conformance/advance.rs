@@ -7,24 +7,27 @@ use super::samples::{Samples, difference, finite, largest, steps};
 const EXACT: f64 = 1e-12;
 
 /// The digits of a pressure that is not taken from the memory.
-const PRESSURE: f64 = 1e-9;
+const PRESSURE: f64 = 1e-8;
 
 /// The times for which sources are held before the checked step \[s\].
 const TIMES: [f64; 2] = [1.0, 1e6];
 
-/// Calls a check at the initial memory and those that sources lead to, with sources that change.
+/// Calls a check at the initial memory and those that sources lead to, each with the range of pressures on the way, with
+/// sources that change.
 fn each(
     samples: &Samples<'_>,
-    check: impl Fn(&[f64], [&[f64]; 2]) -> Result<(), FieldViolation>,
+    check: impl Fn((&[f64], f64), [&[f64]; 2]) -> Result<(), FieldViolation>,
 ) -> Result<(), FieldViolation> {
-    let mut memories = vec![samples.memory.clone()];
+    let mut memories = vec![(samples.memory.clone(), 0.0)];
     for source in &samples.sources[..3] {
+        let range = samples.range(source)?;
         for time in TIMES {
             let [with, _] = samples.held(source, time)?;
-            memories.push(with);
+            memories.push((with, range));
         }
     }
-    for memory in &memories {
+    for (memory, range) in &memories {
+        let memory = (memory.as_slice(), *range);
         for pair in samples.sources.windows(2) {
             check(memory, [&pair[0], &pair[1]])?;
             check(memory, [&pair[1], &pair[0]])?;
@@ -36,7 +39,7 @@ fn each(
 
 /// Checks steps of 0 s, and pressures without memory.
 pub(super) fn check(samples: &Samples<'_>) -> Result<(), FieldViolation> {
-    each(samples, |memory, source| {
+    each(samples, |(memory, range), source| {
         let to = samples.advance(memory, source, 0.0)?;
         for place in 0..to.len() {
             let (found, expected) = (to[place], memory[place]);
@@ -51,30 +54,31 @@ pub(super) fn check(samples: &Samples<'_>) -> Result<(), FieldViolation> {
                 });
             }
         }
+        let mut size = largest(&samples.pressure(memory)?).max(range);
         for dt in [0.0].into_iter().chain(steps()) {
-            check_pressure_after(samples, memory, source, dt)?;
+            size = check_pressure_after(samples, (memory, source, dt), size)?;
         }
         Ok(())
     })
 }
 
+/// The largest pressure by then; parts of the memory may cancel in later ones.
 fn check_pressure_after(
     samples: &Samples<'_>,
-    memory: &[f64],
-    source: [&[f64]; 2],
-    dt: f64,
-) -> Result<(), FieldViolation> {
+    (memory, source, dt): (&[f64], [&[f64]; 2], f64),
+    before: f64,
+) -> Result<f64, FieldViolation> {
     let expected = samples.pressure(&samples.advance(memory, source, dt)?)?;
-    let before = vec![1.0; samples.vertices];
-    let (mut found, mut scratch) = (before.clone(), vec![f64::NAN; memory.len()]);
+    let mut found = vec![1.0; samples.vertices];
+    let mut scratch = vec![f64::NAN; memory.len()];
     (samples.field)
         .pressure_after(memory, source, dt, &mut found, &mut scratch)
         .map_err(|error| FieldViolation::Refused { dt, error })?;
     finite("pressure_after at vertex", Some(dt), &found)?;
-    for (found, before) in found.iter_mut().zip(before) {
-        *found -= before;
+    for found in &mut found {
+        *found -= 1.0;
     }
-    let mut size = largest(&expected).max(largest(&samples.pressure(memory)?));
+    let mut size = largest(&expected).max(before);
     for held in source {
         let to = samples.advance(memory, [held; 2], dt)?;
         size = largest(&samples.pressure(&to)?).max(size);
@@ -90,12 +94,12 @@ fn check_pressure_after(
             expected: expected[place],
         });
     }
-    Ok(())
+    Ok(size)
 }
 
 /// Checks that two halves of a step lead to the end of the whole.
 pub(super) fn check_halves(samples: &Samples<'_>) -> Result<(), FieldViolation> {
-    each(samples, |memory, source| {
+    each(samples, |(memory, _), source| {
         for dt in steps() {
             let whole = samples.advance(memory, source, dt)?;
             let halves = samples.halves(memory, source, dt)?;

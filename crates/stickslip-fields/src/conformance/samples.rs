@@ -15,6 +15,9 @@ const RATES: [[f64; 3]; 8] = [
     [1e-6, 0.0, 0.0],
 ];
 
+/// The longest time for which sources are held \[s\]: longer than most relaxations.
+pub(super) const HELD: f64 = 1e9;
+
 /// The steps of the checks, by decades \[s\].
 pub(super) fn steps() -> impl Iterator<Item = f64> {
     (-9..=15).map(|decade| 10_f64.powi(decade))
@@ -113,6 +116,31 @@ impl<'a> Samples<'a> {
         self.field.pressure(memory, &mut pressure);
         finite("pressure at vertex", None, &pressure)?;
         Ok(pressure)
+    }
+
+    /// The pressure that sources have fed, from memories with and without them.
+    pub(super) fn fed(&self, [with, without]: [&[f64]; 2]) -> Result<Vec<f64>, FieldViolation> {
+        let mut with = self.pressure(with)?;
+        for (with, without) in with.iter_mut().zip(self.pressure(without)?) {
+            *with -= without;
+        }
+        Ok(with)
+    }
+
+    /// The largest range of the pressures that a held source leads to, up to [`HELD`].
+    ///
+    /// With `S(t)` the pressure that a source leads to in `t`, the pressure is `S(t + T) - S(t)` at a time `t` after it has
+    /// been held for `T`: it may grow where memories cancel in it, or feed each other, but not beyond the range of `S`.
+    pub(super) fn range(&self, source: &[f64]) -> Result<f64, FieldViolation> {
+        let mut ranges = vec![[0.0_f64; 2]; self.vertices];
+        for halving in 0..60 {
+            let [with, without] = self.held(source, HELD * 0.5_f64.powi(halving))?;
+            for (range, fed) in ranges.iter_mut().zip(self.fed([&with, &without])?) {
+                *range = [range[0].min(fed), range[1].max(fed)];
+            }
+        }
+        let length = |longest: f64, [least, largest]: [f64; 2]| longest.max(largest - least);
+        Ok(ranges.into_iter().fold(0.0, length))
     }
 
     /// Whether the advance has no error of its own.

@@ -6,6 +6,9 @@ use super::samples::{Samples, difference, finite, largest};
 /// Pressures that are compared to rounding, in units of the largest.
 const ROUNDING: f64 = 1e-12;
 
+/// The same of pressures in which memories may cancel.
+const LINEAR: f64 = 1e-8;
+
 /// The times for which sources are held \[s\].
 const TIMES: [f64; 4] = [1e-3, 1.0, 1e4, 1e9];
 
@@ -13,10 +16,11 @@ const TIMES: [f64; 4] = [1e-3, 1.0, 1e4, 1e9];
 pub(super) fn check(samples: &Samples<'_>) -> Result<(), FieldViolation> {
     check_memory(samples, &samples.memory)?;
     for source in &samples.sources {
+        let range = samples.range(source)?;
         for time in TIMES {
             let [with, without] = samples.held(source, time)?;
             check_memory(samples, &with)?;
-            check_linear(samples, [&with, &without])?;
+            check_linear(samples, [&with, &without], range)?;
             samples.sources_at(&with)?;
         }
     }
@@ -53,7 +57,11 @@ fn check_memory(samples: &Samples<'_>, memory: &[f64]) -> Result<(), FieldViolat
 }
 
 /// The pressure is linear along the line through two memories of one time.
-fn check_linear(samples: &Samples<'_>, [with, without]: [&[f64]; 2]) -> Result<(), FieldViolation> {
+fn check_linear(
+    samples: &Samples<'_>,
+    [with, without]: [&[f64]; 2],
+    range: f64,
+) -> Result<(), FieldViolation> {
     let between = |a: &[f64], b: &[f64], factor: f64| -> Vec<f64> {
         (a.iter().zip(b))
             .map(|(a, b)| b + factor * (a - b))
@@ -64,8 +72,7 @@ fn check_linear(samples: &Samples<'_>, [with, without]: [&[f64]; 2]) -> Result<(
         let found = samples.pressure(&between(with, without, factor))?;
         let expected = between(&of_with, &of_without, factor);
         let (place, by) = difference(&found, &expected);
-        // Memories cancel in some pressures, up to six digits.
-        let bound = 1e6 * ROUNDING * largest(&of_with).max(largest(&of_without));
+        let bound = LINEAR * range.max(largest(&of_with)).max(largest(&of_without));
         let agrees = by <= bound;
         if !agrees {
             return Err(FieldViolation::Differs {

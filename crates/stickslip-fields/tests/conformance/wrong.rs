@@ -28,7 +28,7 @@ fn the_field_without_a_flaw_is_right() {
 fn each_flaw_is_found() {
     let number = "a finite number";
     let free = "pressure without source at vertex";
-    let growth = "at most, in magnitude, the largest before,";
+    let growth = "at most, in magnitude, the largest with it,";
     let long = "as after two halves of the step (L-stable),";
     for (flaw, what, requirement) in [
         (
