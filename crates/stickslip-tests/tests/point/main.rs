@@ -29,6 +29,7 @@ mod steady;
 mod sticking;
 mod substeps;
 mod tension;
+mod thermal;
 mod uniqueness;
 mod velocity_step;
 mod weakening;
