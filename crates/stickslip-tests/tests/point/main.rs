@@ -7,6 +7,7 @@ mod clamping;
 mod clock;
 mod contracts;
 mod convexity;
+mod dilatancy;
 mod events;
 mod explicit_limits;
 mod fields;
