@@ -1,18 +1,22 @@
 //! Pore pressure that diffuses along a fault.
 
 mod cells;
+mod conjugate_gradients;
 mod dilatancy;
 mod error;
 mod estimate;
 mod exchange;
 mod faces;
 mod field;
+mod gaussian;
 mod hydraulics;
 mod leak_off;
 mod line;
 mod line_solver;
 mod memory;
 mod permeability;
+mod plane;
+mod plane_solver;
 mod pool;
 mod rate_history;
 mod readings;
@@ -20,16 +24,19 @@ mod side;
 mod step;
 mod system;
 mod tr_bdf2;
+mod transform;
 mod well;
 mod work;
 
 pub use cells::{Cells, Place};
 pub use dilatancy::Dilatancy;
 pub use error::DiffusionError;
+pub use gaussian::GaussianSource;
 pub use hydraulics::{Hydraulics, PerCell};
 pub use leak_off::LeakOff;
 pub use line::Line;
 pub use permeability::PermeabilityEvolution;
+pub use plane::Plane;
 pub use rate_history::RateHistory;
 pub use side::{Boundary, Side};
 pub use well::Well;

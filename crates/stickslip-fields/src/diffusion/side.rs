@@ -85,6 +85,7 @@ impl Diffusion {
         }
         let known = match &self.cells {
             Cells::Line(_) => matches!(side, Side::Begin | Side::End),
+            Cells::Plane(_) => true,
         };
         if !known {
             return Err(self.cells.misplaced("side", side.name()));
@@ -132,6 +133,7 @@ impl Cells {
                 vec![(cell, 1.0, to_side)]
             }
             (Self::Line(_), _) => Vec::new(),
+            (Self::Plane(plane), side) => plane.at_side(side),
         }
     }
 }

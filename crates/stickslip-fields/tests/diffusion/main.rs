@@ -1,9 +1,11 @@
 //! Pore pressure that diffuses along a fault.
 
 mod bp6;
+mod bp8;
 mod couplings;
 mod extremes;
 mod march;
+mod planes;
 mod rates;
 mod refusals;
 mod terzaghi;

@@ -1,14 +1,19 @@
 //! Wrong inputs, each with its own error.
 
 use stickslip_fields::{
-    Boundary, Diffusion, DiffusionError, Dilatancy, Hydraulics, LeakOff, Line,
-    PermeabilityEvolution, Place, RateHistory, Side, Well,
+    Boundary, Diffusion, DiffusionError, Dilatancy, GaussianSource, Hydraulics, LeakOff, Line,
+    PermeabilityEvolution, Place, Plane, RateHistory, Side, Well,
 };
 
 use crate::march::zone;
 
 fn field() -> Diffusion {
     Diffusion::new(Line::uniform([0.0, 40.0], 4).expect("line"), &zone(1e-13)).expect("field")
+}
+
+fn plane() -> Diffusion {
+    let plane = Plane::new([[0.0, 40.0], [0.0, 30.0]], [4, 3]).expect("plane");
+    Diffusion::new(plane, &zone(1e-13)).expect("field")
 }
 
 fn made(hydraulics: Hydraulics) -> Result<Diffusion, DiffusionError> {
@@ -169,6 +174,50 @@ fn wrong_inputs_are_refused_with_their_numbers() {
                 .with_source(&[1.0, -1.0, 0.0, 0.0], rate())
                 .map(drop),
             "share of a source of cell 1",
+        ),
+        (
+            Plane::new([[0.0, 1.0]; 2], [3, 0]).map(drop),
+            "cells of a plane along a side: 0 values",
+        ),
+        (
+            Plane::new([[0.0, 1.0], [1.0, 0.0]], [3, 3]).map(drop),
+            "end of a plane [m] must be beyond its begin",
+        ),
+        (
+            Plane::new([[0.0, nan], [1.0, 2.0]], [3, 3]).map(drop),
+            "end of a plane [m] must be finite",
+        ),
+        (
+            plane().with_well(Well::new([1.0, 31.0], rate())).map(drop),
+            "well at [1.0, 31.0] lies outside",
+        ),
+        (
+            plane().with_well(Well::new(1.0, rate())).map(drop),
+            "well at a position along a line, but the cells form a plane",
+        ),
+        (
+            plane()
+                .with_well(Well::new([1.0, 1.0], rate()).with_bore(1e-9, 2.0))
+                .map(drop),
+            "radius 2e0 m of the wellbore must be below the equivalent radius of its cell, 1.985",
+        ),
+        (
+            plane()
+                .with_well(Well::new([1.0, 1.0], rate()).with_bore(1e-9, 0.0))
+                .map(drop),
+            "radius of a wellbore [m] must be above 0",
+        ),
+        (
+            plane()
+                .with_gaussian_source(GaussianSource::new([1.0, 1.0], 0.0, rate()))
+                .map(drop),
+            "standard deviation of a Gaussian source [m] must be above 0",
+        ),
+        (
+            plane()
+                .with_gaussian_source(GaussianSource::new([-1.0, 1.0], 5.0, rate()))
+                .map(drop),
+            "Gaussian source at [-1.0, 1.0] lies outside",
         ),
         (RateHistory::constant(nan).map(drop), "rate must be finite"),
         (
