@@ -17,8 +17,8 @@ mod field;
 mod given;
 
 pub use diffusion::{
-    Boundary, Cells, Diffusion, DiffusionError, Dilatancy, GaussianSource, Hydraulics, LeakOff,
-    Line, PerCell, PermeabilityEvolution, Place, Plane, RateHistory, Side, Well,
+    Boundary, Cells, Diffusion, DiffusionError, Dilatancy, Edge, GaussianSource, Hydraulics,
+    LeakOff, Line, Network, PerCell, PermeabilityEvolution, Place, Plane, RateHistory, Side, Well,
 };
 pub use error::FieldError;
 pub use field::{FaultField, FaultRates, FieldSizes, Reading};

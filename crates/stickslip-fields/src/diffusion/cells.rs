@@ -1,6 +1,6 @@
 //! The cells of a fault, and the faces between them.
 
-use super::{DiffusionError, Line, Plane};
+use super::{DiffusionError, Line, Network, Plane};
 
 /// The cells on which pore pressure diffuses.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,6 +10,14 @@ pub enum Cells {
     Line(Line),
     /// Cells of a plane.
     Plane(Plane),
+    /// Cells in any arrangement.
+    Network(Network),
+}
+
+impl From<Network> for Cells {
+    fn from(network: Network) -> Self {
+        Self::Network(network)
+    }
 }
 
 impl From<Plane> for Cells {
@@ -63,6 +71,7 @@ impl Cells {
         match self {
             Self::Line(line) => line.count(),
             Self::Plane(plane) => plane.count(),
+            Self::Network(network) => network.count(),
         }
     }
 
@@ -71,6 +80,7 @@ impl Cells {
         match self {
             Self::Line(line) => line.lengths().to_vec(),
             Self::Plane(plane) => vec![plane.lengths()[0] * plane.lengths()[1]; plane.count()],
+            Self::Network(network) => network.areas().to_vec(),
         }
     }
 
@@ -78,7 +88,7 @@ impl Cells {
     pub(super) fn vertices(&self) -> Vec<usize> {
         match self {
             Self::Line(line) => line.vertices().to_vec(),
-            Self::Plane(plane) => (0..plane.count()).collect(),
+            _ => (0..self.count()).collect(),
         }
     }
 
@@ -87,6 +97,7 @@ impl Cells {
         match self {
             Self::Line(line) => line.count() - 1,
             Self::Plane(plane) => plane.faces().iter().sum(),
+            Self::Network(network) => network.edges().len(),
         }
     }
 
@@ -95,6 +106,15 @@ impl Cells {
         match self {
             Self::Line(line) => line.conductances(mobility, faces),
             Self::Plane(plane) => plane.conductances(mobility, faces),
+            Self::Network(network) => network.conductances(mobility, faces),
+        }
+    }
+
+    /// Whether fluid can flow from each cell to each other one.
+    pub(super) fn is_connected(&self, faces: &[f64]) -> bool {
+        match self {
+            Self::Network(network) => network.is_connected(faces),
+            _ => faces.iter().all(|&face| face > 0.0),
         }
     }
 
@@ -103,6 +123,7 @@ impl Cells {
         match self {
             Self::Line(_) => Line::add_flow(faces, pressure, into),
             Self::Plane(plane) => plane.add_flow(faces, pressure, 1.0, into),
+            Self::Network(network) => network.add_flow(faces, pressure, 1.0, into),
         }
     }
 
@@ -111,6 +132,7 @@ impl Cells {
         match self {
             Self::Line(_) => 1,
             Self::Plane(_) => 2,
+            Self::Network(_) => 0,
         }
     }
 
@@ -125,13 +147,14 @@ impl Cells {
         match self {
             Self::Line(_) => Line::add_half_flow(faces, pressure, rates),
             Self::Plane(plane) => plane.add_half_flow(direction, faces, pressure, rates),
+            Self::Network(_) => {}
         }
     }
 
     /// The length of a face across a direction \[m\]; 1 on a line.
     pub(super) fn width(&self, direction: usize) -> f64 {
         match self {
-            Self::Line(_) => 1.0,
+            Self::Line(_) | Self::Network(_) => 1.0,
             Self::Plane(plane) => plane.lengths()[1 - direction],
         }
     }
@@ -141,6 +164,7 @@ impl Cells {
         match self {
             Self::Line(_) => "line",
             Self::Plane(_) => "plane",
+            Self::Network(_) => "network",
         }
     }
 
@@ -148,6 +172,7 @@ impl Cells {
         match self {
             Self::Line(_) => "a position along it",
             Self::Plane(_) => "a position along strike and down dip",
+            Self::Network(_) => "cells",
         }
     }
 

@@ -86,6 +86,7 @@ impl Diffusion {
         let known = match &self.cells {
             Cells::Line(_) => matches!(side, Side::Begin | Side::End),
             Cells::Plane(_) => true,
+            Cells::Network(_) => false,
         };
         if !known {
             return Err(self.cells.misplaced("side", side.name()));
@@ -132,7 +133,7 @@ impl Cells {
                 let (cell, to_side) = line.to_side(side == Side::End);
                 vec![(cell, 1.0, to_side)]
             }
-            (Self::Line(_), _) => Vec::new(),
+            (Self::Line(_) | Self::Network(_), _) => Vec::new(),
             (Self::Plane(plane), side) => plane.at_side(side),
         }
     }

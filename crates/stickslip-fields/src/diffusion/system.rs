@@ -2,6 +2,7 @@
 
 use super::Cells;
 use super::line_solver::LineSolver;
+use super::network_solver::NetworkSolver;
 use super::plane_solver::PlaneSolver;
 use super::{Boundary, Side};
 use crate::FieldError;
@@ -21,7 +22,7 @@ impl Conductances {
     /// Computes the faces from the mobilities.
     pub(super) fn update(&mut self, cells: &Cells) {
         cells.conductances(&self.mobility, &mut self.faces);
-        self.connected = self.faces.iter().all(|&face| face > 0.0);
+        self.connected = cells.is_connected(&self.faces);
     }
 }
 
@@ -40,6 +41,7 @@ pub(super) struct System {
 enum Solver {
     Line(LineSolver),
     Plane(Box<PlaneSolver>),
+    Network(NetworkSolver),
 }
 
 impl System {
@@ -50,6 +52,7 @@ impl System {
         let solver = match cells {
             Cells::Line(_) => Solver::Line(LineSolver::new(count)),
             Cells::Plane(plane) => Solver::Plane(Box::new(PlaneSolver::new(plane, given))),
+            Cells::Network(network) => Solver::Network(NetworkSolver::new(network)),
         };
         Self {
             q: f64::NAN,
@@ -66,6 +69,7 @@ impl System {
         match &mut self.solver {
             Solver::Line(solver) => solver.factor(&self.diagonal, &conductances.faces, q),
             Solver::Plane(solver) => solver.factor(&self.diagonal, conductances, q),
+            Solver::Network(solver) => solver.factor(&self.diagonal, conductances, q),
         }
     }
 
@@ -80,6 +84,9 @@ impl System {
         match &mut self.solver {
             Solver::Line(solver) => solver.solve(b),
             Solver::Plane(solver) => {
+                solver.solve(&self.diagonal, conductances, self.q, b)?;
+            }
+            Solver::Network(solver) => {
                 solver.solve(&self.diagonal, conductances, self.q, b)?;
             }
         }

@@ -209,7 +209,7 @@ impl Cells {
     /// The radius at which the pressure in a homogeneous plane is that of the cell of a well \[m\].
     fn equivalent_radius(&self) -> Option<f64> {
         match self {
-            Self::Line(_) => None,
+            Self::Line(_) | Self::Network(_) => None,
             // Peaceman, SPE J. 23 (1983), for equal mobilities along both sides.
             Self::Plane(plane) => {
                 let [width, height] = plane.lengths();

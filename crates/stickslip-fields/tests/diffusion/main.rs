@@ -5,6 +5,7 @@ mod bp8;
 mod couplings;
 mod extremes;
 mod march;
+mod networks;
 mod planes;
 mod rates;
 mod refusals;

@@ -1,8 +1,8 @@
 //! Wrong inputs, each with its own error.
 
 use stickslip_fields::{
-    Boundary, Diffusion, DiffusionError, Dilatancy, GaussianSource, Hydraulics, LeakOff, Line,
-    PermeabilityEvolution, Place, Plane, RateHistory, Side, Well,
+    Boundary, Diffusion, DiffusionError, Dilatancy, Edge, GaussianSource, Hydraulics, LeakOff,
+    Line, Network, PermeabilityEvolution, Place, Plane, RateHistory, Side, Well,
 };
 
 use crate::march::zone;
@@ -14,6 +14,19 @@ fn field() -> Diffusion {
 fn plane() -> Diffusion {
     let plane = Plane::new([[0.0, 40.0], [0.0, 30.0]], [4, 3]).expect("plane");
     Diffusion::new(plane, &zone(1e-13)).expect("field")
+}
+
+fn edge(cells: [usize; 2], length: f64, distance: f64) -> Result<(), DiffusionError> {
+    let distances = [distance; 2];
+    Network::new(
+        vec![1.0; 2],
+        vec![Edge {
+            cells,
+            length,
+            distances,
+        }],
+    )
+    .map(drop)
 }
 
 fn made(hydraulics: Hydraulics) -> Result<Diffusion, DiffusionError> {
@@ -218,6 +231,38 @@ fn wrong_inputs_are_refused_with_their_numbers() {
                 .with_gaussian_source(GaussianSource::new([-1.0, 1.0], 5.0, rate()))
                 .map(drop),
             "Gaussian source at [-1.0, 1.0] lies outside",
+        ),
+        (
+            Network::new(vec![], vec![]).map(drop),
+            "cells of a network: 0 values",
+        ),
+        (
+            Network::new(vec![1.0, 0.0], vec![]).map(drop),
+            "area [m^2] of cell 1 must be above 0",
+        ),
+        (
+            edge([0, 2], 1.0, 1.0),
+            "edge of cell 0 must be between cells that exist, is 2",
+        ),
+        (
+            edge([1, 1], 1.0, 1.0),
+            "edge of cell 0 must be between two cells, is 1",
+        ),
+        (
+            edge([0, 1], -1.0, 1.0),
+            "length of edge [m] of cell 0 must be at least 0",
+        ),
+        (
+            edge([0, 1], 1.0, 0.0),
+            "distance of edge [m] of cell 0 must be above 0",
+        ),
+        (
+            Network::triangles(&[[0.0; 3]; 3], &[[0, 1, 2]]).map(drop),
+            "area of triangle [m^2] of cell 0",
+        ),
+        (
+            Network::triangles(&[[0.0; 3]; 3], &[[0, 1, 3]]).map(drop),
+            "triangle of cell 0 must be of vertices that exist",
         ),
         (RateHistory::constant(nan).map(drop), "rate must be finite"),
         (
