@@ -22,8 +22,8 @@ mod thermal;
 
 pub use conformance::{FieldViolation, check_fault_field};
 pub use diffusion::{
-    Boundary, Cells, Diffusion, DiffusionError, Dilatancy, Hydraulics, LeakOff, Line, PerCell,
-    PermeabilityEvolution, Place, RateHistory, Side, Well,
+    Boundary, Cells, Diffusion, DiffusionError, Dilatancy, Edge, GaussianSource, Hydraulics,
+    LeakOff, Line, Network, PerCell, PermeabilityEvolution, Place, Plane, RateHistory, Side, Well,
 };
 pub use error::FieldError;
 pub use field::{FaultField, FaultRates, FieldSizes, Reading};

@@ -1,6 +1,6 @@
 //! The cells of a fault, and the faces between them.
 
-use super::{DiffusionError, Line};
+use super::{DiffusionError, Line, Network, Plane};
 
 /// The cells on which pore pressure diffuses.
 #[derive(Debug, Clone, PartialEq)]
@@ -8,6 +8,22 @@ use super::{DiffusionError, Line};
 pub enum Cells {
     /// Cells along a line.
     Line(Line),
+    /// Cells of a plane.
+    Plane(Plane),
+    /// Cells in any arrangement.
+    Network(Network),
+}
+
+impl From<Network> for Cells {
+    fn from(network: Network) -> Self {
+        Self::Network(network)
+    }
+}
+
+impl From<Plane> for Cells {
+    fn from(plane: Plane) -> Self {
+        Self::Plane(plane)
+    }
 }
 
 impl From<Line> for Cells {
@@ -54,6 +70,8 @@ impl Cells {
     pub fn count(&self) -> usize {
         match self {
             Self::Line(line) => line.count(),
+            Self::Plane(plane) => plane.count(),
+            Self::Network(network) => network.count(),
         }
     }
 
@@ -61,6 +79,8 @@ impl Cells {
     pub(super) fn sizes(&self) -> Vec<f64> {
         match self {
             Self::Line(line) => line.lengths().to_vec(),
+            Self::Plane(plane) => vec![plane.lengths()[0] * plane.lengths()[1]; plane.count()],
+            Self::Network(network) => network.areas().to_vec(),
         }
     }
 
@@ -68,6 +88,7 @@ impl Cells {
     pub(super) fn vertices(&self) -> Vec<usize> {
         match self {
             Self::Line(line) => line.vertices().to_vec(),
+            _ => (0..self.count()).collect(),
         }
     }
 
@@ -75,6 +96,8 @@ impl Cells {
     pub(super) fn faces(&self) -> usize {
         match self {
             Self::Line(line) => line.count() - 1,
+            Self::Plane(plane) => plane.faces().iter().sum(),
+            Self::Network(network) => network.edges().len(),
         }
     }
 
@@ -82,6 +105,16 @@ impl Cells {
     pub(super) fn conductances(&self, mobility: &[f64], faces: &mut [f64]) {
         match self {
             Self::Line(line) => line.conductances(mobility, faces),
+            Self::Plane(plane) => plane.conductances(mobility, faces),
+            Self::Network(network) => network.conductances(mobility, faces),
+        }
+    }
+
+    /// Whether fluid can flow from each cell to each other one.
+    pub(super) fn is_connected(&self, faces: &[f64]) -> bool {
+        match self {
+            Self::Network(network) => network.is_connected(faces),
+            _ => faces.iter().all(|&face| face > 0.0),
         }
     }
 
@@ -89,6 +122,8 @@ impl Cells {
     pub(super) fn add_flow(&self, faces: &[f64], pressure: &[f64], into: &mut [f64]) {
         match self {
             Self::Line(_) => Line::add_flow(faces, pressure, into),
+            Self::Plane(plane) => plane.add_flow(faces, pressure, 1.0, into),
+            Self::Network(network) => network.add_flow(faces, pressure, 1.0, into),
         }
     }
 
@@ -96,26 +131,31 @@ impl Cells {
     pub(super) fn directions(&self) -> usize {
         match self {
             Self::Line(_) => 1,
+            Self::Plane(_) => 2,
+            Self::Network(_) => 0,
         }
     }
 
     /// Adds half the volume rate along a direction through each of its faces to each cell.
     pub(super) fn add_half_flow(
         &self,
-        _direction: usize,
+        direction: usize,
         faces: &[f64],
         pressure: &[f64],
         rates: &mut [f64],
     ) {
         match self {
             Self::Line(_) => Line::add_half_flow(faces, pressure, rates),
+            Self::Plane(plane) => plane.add_half_flow(direction, faces, pressure, rates),
+            Self::Network(_) => {}
         }
     }
 
     /// The length of a face across a direction \[m\]; 1 on a line.
-    pub(super) fn width(&self, _direction: usize) -> f64 {
+    pub(super) fn width(&self, direction: usize) -> f64 {
         match self {
-            Self::Line(_) => 1.0,
+            Self::Line(_) | Self::Network(_) => 1.0,
+            Self::Plane(plane) => plane.lengths()[1 - direction],
         }
     }
 
@@ -123,12 +163,16 @@ impl Cells {
     pub(super) fn kind(&self) -> &'static str {
         match self {
             Self::Line(_) => "line",
+            Self::Plane(_) => "plane",
+            Self::Network(_) => "network",
         }
     }
 
     fn place(&self) -> &'static str {
         match self {
             Self::Line(_) => "a position along it",
+            Self::Plane(_) => "a position along strike and down dip",
+            Self::Network(_) => "cells",
         }
     }
 
@@ -152,6 +196,16 @@ impl Cells {
                         position: vec![position],
                         begin: vec![begin],
                         end: vec![end],
+                    })
+            }
+            (Self::Plane(plane), Place::On(position)) => {
+                plane
+                    .cell_at(position)
+                    .ok_or_else(|| DiffusionError::Outside {
+                        what,
+                        position: position.to_vec(),
+                        begin: plane.ends().map(|ends| ends[0]).to_vec(),
+                        end: plane.ends().map(|ends| ends[1]).to_vec(),
                     })
             }
             _ => Err(self.misplaced(what, place.kind())),

@@ -112,6 +112,11 @@ impl Line {
         [self.edges[0], self.edges[self.count()]]
     }
 
+    /// The edges of a cell \[m\].
+    pub(super) fn edges_of(&self, cell: usize) -> [f64; 2] {
+        [self.edges[cell], self.edges[cell + 1]]
+    }
+
     /// The cell that holds a position, the first at an edge; none outside.
     pub(super) fn cell_at(&self, position: f64) -> Option<usize> {
         let [begin, end] = self.ends();

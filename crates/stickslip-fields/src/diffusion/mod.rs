@@ -1,35 +1,47 @@
 //! Pore pressure that diffuses along a fault.
 
 mod cells;
+mod conjugate_gradients;
 mod dilatancy;
 mod error;
 mod estimate;
 mod exchange;
 mod faces;
 mod field;
+mod gaussian;
 mod hydraulics;
 mod leak_off;
 mod line;
 mod line_solver;
 mod memory;
+mod network;
+mod network_solver;
 mod permeability;
+mod plane;
+mod plane_solver;
 mod pool;
 mod rate_history;
+#[cfg(feature = "csv")]
+mod rate_table;
 mod readings;
 mod side;
 mod step;
 mod system;
 mod tr_bdf2;
+mod transform;
 mod well;
 mod work;
 
 pub use cells::{Cells, Place};
 pub use dilatancy::Dilatancy;
 pub use error::DiffusionError;
+pub use gaussian::GaussianSource;
 pub use hydraulics::{Hydraulics, PerCell};
 pub use leak_off::LeakOff;
 pub use line::Line;
+pub use network::{Edge, Network};
 pub use permeability::PermeabilityEvolution;
+pub use plane::Plane;
 pub use rate_history::RateHistory;
 pub use side::{Boundary, Side};
 pub use well::Well;
@@ -62,7 +74,11 @@ use crate::Reading;
 /// ([`with_dilatancy`](Self::with_dilatancy)). The times at which the rates of wells jump or bend are stops.
 ///
 /// # Cost
-/// On a line of `n` cells a step is two tridiagonal solutions.
+/// Per cell and step on one core: on a line some 15 ns, with permeability that changes 40; its estimated error 7 more. On
+/// a plane whose properties change down dip alone 30 ns: a cosine or sine transform along strike and elimination down
+/// dip. For others conjugate gradients repeat that `4 sqrt(r)` times at most, with the contrast `r` of properties along
+/// strike. On a network conjugate gradients take a number of iterations that grows as the distance over which fluid
+/// diffuses in a step, in cells.
 ///
 /// ```
 /// use stickslip_fields::{Diffusion, FaultField, Hydraulics, Line, RateHistory, Well};

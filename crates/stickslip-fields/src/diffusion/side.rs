@@ -85,6 +85,8 @@ impl Diffusion {
         }
         let known = match &self.cells {
             Cells::Line(_) => matches!(side, Side::Begin | Side::End),
+            Cells::Plane(_) => true,
+            Cells::Network(_) => false,
         };
         if !known {
             return Err(self.cells.misplaced("side", side.name()));
@@ -131,7 +133,8 @@ impl Cells {
                 let (cell, to_side) = line.to_side(side == Side::End);
                 vec![(cell, 1.0, to_side)]
             }
-            (Self::Line(_), _) => Vec::new(),
+            (Self::Line(_) | Self::Network(_), _) => Vec::new(),
+            (Self::Plane(plane), side) => plane.at_side(side),
         }
     }
 }

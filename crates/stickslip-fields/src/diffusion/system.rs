@@ -2,6 +2,9 @@
 
 use super::Cells;
 use super::line_solver::LineSolver;
+use super::network_solver::NetworkSolver;
+use super::plane_solver::PlaneSolver;
+use super::{Boundary, Side};
 use crate::FieldError;
 
 /// The volume rates per pressure between cells at a moment.
@@ -19,7 +22,7 @@ impl Conductances {
     /// Computes the faces from the mobilities.
     pub(super) fn update(&mut self, cells: &Cells) {
         cells.conductances(&self.mobility, &mut self.faces);
-        self.connected = self.faces.iter().all(|&face| face > 0.0);
+        self.connected = cells.is_connected(&self.faces);
     }
 }
 
@@ -37,13 +40,19 @@ pub(super) struct System {
 #[derive(Debug, Clone)]
 enum Solver {
     Line(LineSolver),
+    Plane(Box<PlaneSolver>),
+    Network(NetworkSolver),
 }
 
 impl System {
-    pub(super) fn new(cells: &Cells) -> Self {
+    pub(super) fn new(cells: &Cells, sides: &[Boundary; 4]) -> Self {
         let count = cells.count();
+        let given = [Side::Begin, Side::End]
+            .map(|side| matches!(sides[side as usize], Boundary::Pressure(_)));
         let solver = match cells {
             Cells::Line(_) => Solver::Line(LineSolver::new(count)),
+            Cells::Plane(plane) => Solver::Plane(Box::new(PlaneSolver::new(plane, given))),
+            Cells::Network(network) => Solver::Network(NetworkSolver::new(network)),
         };
         Self {
             q: f64::NAN,
@@ -59,6 +68,8 @@ impl System {
         self.sum = self.diagonal.iter().sum();
         match &mut self.solver {
             Solver::Line(solver) => solver.factor(&self.diagonal, &conductances.faces, q),
+            Solver::Plane(solver) => solver.factor(&self.diagonal, conductances, q),
+            Solver::Network(solver) => solver.factor(&self.diagonal, conductances, q),
         }
     }
 
@@ -72,6 +83,12 @@ impl System {
     ) -> Result<(), FieldError> {
         match &mut self.solver {
             Solver::Line(solver) => solver.solve(b),
+            Solver::Plane(solver) => {
+                solver.solve(&self.diagonal, conductances, self.q, b)?;
+            }
+            Solver::Network(solver) => {
+                solver.solve(&self.diagonal, conductances, self.q, b)?;
+            }
         }
         let found: f64 = self.diagonal.iter().zip(&*b).map(|(a, x)| a * x).sum();
         let shift = (total - found) / self.sum;

@@ -20,11 +20,11 @@ pub(super) const FIRST: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
 /// The weights of the rates at the start, at `gamma dt` and at the end in an integral over a step.
 pub(super) const WEIGHTS: [f64; 3] = [SQRT_2 / 4.0, SQRT_2 / 4.0, HALF];
 
-/// The weights of the three rates in the estimated error, times `dt`:
+/// The weights of the three rates in the estimated error of the end, over `dt`:
 /// `2 k [f_0/gamma - f_gamma/(gamma (1 - gamma)) + f_1/(1 - gamma)]`,
-/// `k = (-3 gamma^2 + 4 gamma - 2)/(12 (2 - gamma))`.
+/// `k = (3 gamma^2 - 4 gamma + 2)/(12 (2 - gamma))`.
 pub(super) fn error_weights() -> [f64; 3] {
-    let k = (-3.0 * GAMMA * GAMMA + 4.0 * GAMMA - 2.0) / (12.0 * (2.0 - GAMMA));
+    let k = (3.0 * GAMMA * GAMMA - 4.0 * GAMMA + 2.0) / (12.0 * (2.0 - GAMMA));
     [
         2.0 * k / GAMMA,
         -2.0 * k / (GAMMA * (1.0 - GAMMA)),

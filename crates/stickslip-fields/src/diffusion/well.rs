@@ -6,6 +6,8 @@ use super::error::{not_negative, positive};
 use super::{Cells, Diffusion, DiffusionError, Place, RateHistory};
 
 const WELL: &str = "well";
+/// The constant of Euler and Mascheroni.
+const EULER: f64 = 0.577_215_664_901_532_9;
 
 /// A well that injects (or produces, at negative rates) at a point.
 ///
@@ -207,7 +209,12 @@ impl Cells {
     /// The radius at which the pressure in a homogeneous plane is that of the cell of a well \[m\].
     fn equivalent_radius(&self) -> Option<f64> {
         match self {
-            Self::Line(_) => None,
+            Self::Line(_) | Self::Network(_) => None,
+            // Peaceman, SPE J. 23 (1983), for equal mobilities along both sides.
+            Self::Plane(plane) => {
+                let [width, height] = plane.lengths();
+                Some((-EULER).exp() / 4.0 * width.hypot(height))
+            }
         }
     }
 

@@ -44,7 +44,7 @@ impl Work {
                 faces: vec![0.0; field.cells.faces()],
                 connected: false,
             },
-            system: System::new(&field.cells),
+            system: System::new(&field.cells, &field.sides),
             flow: vector(),
             first: vector(),
             second: vector(),

@@ -74,3 +74,25 @@ fn a_cell_holds_what_a_step_over_a_knot_injects() {
     }
     assert!((march.pressure()[0] * 1e-9 / 57.5 - 1.0).abs() < 1e-14);
 }
+
+#[cfg(feature = "csv")]
+#[test]
+fn text_that_is_no_table_is_refused() {
+    let cases = [
+        (
+            "time,rate\n0,1\nx,2\n",
+            "line 3 of the rates: not two numbers",
+        ),
+        ("0,1\n1,2,3\n", "line 2 of the rates: 3 columns"),
+        ("0,1\na,b\n", "line 2 of the rates: not two numbers"),
+        ("time,rate\n", "rows of rates: 0 values"),
+        ("0,1\n-1,2\n", "row 1 of the rates"),
+        ("0,nan\n", "row 0 of the rates"),
+    ];
+    for (text, expected) in cases {
+        let error = RateHistory::linear_from_csv(text.as_bytes())
+            .expect_err(text)
+            .to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+}

@@ -1,17 +1,35 @@
 //! Wrong inputs, each with its own error.
 
 use stickslip_fields::{
-    Boundary, Diffusion, DiffusionError, Dilatancy, Hydraulics, LeakOff, Line,
-    PermeabilityEvolution, Place, RateHistory, Side, Well,
+    Boundary, Diffusion, DiffusionError, Dilatancy, Edge, Hydraulics, LeakOff, Line, Network,
+    PermeabilityEvolution, Plane, RateHistory, Side,
 };
 
 use crate::march::zone;
 
-fn field() -> Diffusion {
+pub(crate) fn field() -> Diffusion {
     Diffusion::new(Line::uniform([0.0, 40.0], 4).expect("line"), &zone(1e-13)).expect("field")
 }
 
-fn made(hydraulics: Hydraulics) -> Result<Diffusion, DiffusionError> {
+pub(crate) fn plane() -> Diffusion {
+    let plane = Plane::new([[0.0, 40.0], [0.0, 30.0]], [4, 3]).expect("plane");
+    Diffusion::new(plane, &zone(1e-13)).expect("field")
+}
+
+fn edge(cells: [usize; 2], length: f64, distance: f64) -> Result<(), DiffusionError> {
+    let distances = [distance; 2];
+    Network::new(
+        vec![1.0; 2],
+        vec![Edge {
+            cells,
+            length,
+            distances,
+        }],
+    )
+    .map(drop)
+}
+
+pub(crate) fn made(hydraulics: Hydraulics) -> Result<Diffusion, DiffusionError> {
     Diffusion::new(Line::uniform([0.0, 40.0], 4)?, &hydraulics)
 }
 
@@ -37,15 +55,22 @@ fn dilating(change: impl Fn(&mut Dilatancy)) -> Result<Diffusion, DiffusionError
     field().with_dilatancy(dilatancy)
 }
 
-fn rate() -> RateHistory {
+pub(crate) fn rate() -> RateHistory {
     RateHistory::constant(1e-6).expect("rate")
 }
 
+/// Requires the errors.
+pub(crate) fn refused(cases: Vec<(Result<(), DiffusionError>, &str)>) {
+    for (result, expected) in cases {
+        let error = result.expect_err(expected).to_string();
+        assert!(error.contains(expected), "{error:?} without {expected:?}");
+    }
+}
+
 #[test]
-#[allow(clippy::too_many_lines)]
-fn wrong_inputs_are_refused_with_their_numbers() {
+fn cells_and_their_properties() {
     let nan = f64::NAN;
-    let cases: Vec<(Result<(), DiffusionError>, &str)> = vec![
+    refused(vec![
         (
             Line::uniform([0.0, 1.0], 0).map(drop),
             "cells of a line: 0 values",
@@ -111,6 +136,57 @@ fn wrong_inputs_are_refused_with_their_numbers() {
             "3 values for 4",
         ),
         (
+            Plane::new([[0.0, 1.0]; 2], [3, 0]).map(drop),
+            "cells of a plane along a side: 0 values",
+        ),
+        (
+            Plane::new([[0.0, 1.0], [1.0, 0.0]], [3, 3]).map(drop),
+            "end of a plane [m] must be beyond its begin",
+        ),
+        (
+            Plane::new([[0.0, nan], [1.0, 2.0]], [3, 3]).map(drop),
+            "end of a plane [m] must be finite",
+        ),
+        (
+            Network::new(vec![], vec![]).map(drop),
+            "cells of a network: 0 values",
+        ),
+        (
+            Network::new(vec![1.0, 0.0], vec![]).map(drop),
+            "area [m^2] of cell 1 must be above 0",
+        ),
+        (
+            edge([0, 2], 1.0, 1.0),
+            "edge of cell 0 must be between cells that exist, is 2",
+        ),
+        (
+            edge([1, 1], 1.0, 1.0),
+            "edge of cell 0 must be between two cells, is 1",
+        ),
+        (
+            edge([0, 1], -1.0, 1.0),
+            "length of edge [m] of cell 0 must be at least 0",
+        ),
+        (
+            edge([0, 1], 1.0, 0.0),
+            "distance of edge [m] of cell 0 must be above 0",
+        ),
+        (
+            Network::triangles(&[[0.0; 3]; 3], &[[0, 1, 2]]).map(drop),
+            "area of triangle [m^2] of cell 0",
+        ),
+        (
+            Network::triangles(&[[0.0; 3]; 3], &[[0, 1, 3]]).map(drop),
+            "triangle of cell 0 must be of vertices that exist",
+        ),
+    ]);
+}
+
+#[test]
+fn sides_and_couplings() {
+    let nan = f64::NAN;
+    refused(vec![
+        (
             field().with_side(Side::Top, Boundary::Sealed).map(drop),
             "side at the top, but the cells form a line",
         ),
@@ -123,65 +199,6 @@ fn wrong_inputs_are_refused_with_their_numbers() {
         (
             field().with_side(Side::End, Boundary::Flux(nan)).map(drop),
             "flux of a side [m/s] must be finite",
-        ),
-        (
-            field().with_well(Well::new(41.0, rate())).map(drop),
-            "well at [41.0] lies outside of the cells",
-        ),
-        (
-            field().with_well(Well::new(nan, rate())).map(drop),
-            "well at [NaN] lies outside",
-        ),
-        (
-            field()
-                .with_well(Well::new(Place::Cell(4), rate()))
-                .map(drop),
-            "well at [4.0] lies outside",
-        ),
-        (
-            field().with_well(Well::new([0.0, 1.0], rate())).map(drop),
-            "well at a position on a plane, but the cells",
-        ),
-        (
-            field()
-                .with_well(Well::new(1.0, rate()).with_bore(1e-9, 0.1))
-                .map(drop),
-            "well at a bore of a radius, but the cells form a line",
-        ),
-        (
-            field()
-                .with_well(Well::new(1.0, rate()).with_bore_of_index(0.0, 0.1))
-                .map(drop),
-            "storage of a wellbore",
-        ),
-        (
-            made(zone(0.0))
-                .and_then(|field| field.with_well(Well::new(25.0, rate())))
-                .map(drop),
-            "well in cell 2, which is sealed",
-        ),
-        (
-            field().with_source(&[1.0; 3], rate()).map(drop),
-            "share of a source: 3 values for 4",
-        ),
-        (
-            field()
-                .with_source(&[1.0, -1.0, 0.0, 0.0], rate())
-                .map(drop),
-            "share of a source of cell 1",
-        ),
-        (RateHistory::constant(nan).map(drop), "rate must be finite"),
-        (
-            RateHistory::constant_between(&[]).map(drop),
-            "rows of rates: 0 values",
-        ),
-        (
-            RateHistory::constant_between(&[(1.0, 0.0), (0.5, 1.0)]).map(drop),
-            "row 1 of the rates: time 5e-1 s",
-        ),
-        (
-            RateHistory::linear_between(&[(1.0, 0.0), (2.0, nan)]).map(drop),
-            "row 1 of the rates: time 2e0 s and rate NaN",
         ),
         (
             evolving(|of| of.maximum = 1e-16.into()).map(drop),
@@ -236,9 +253,5 @@ fn wrong_inputs_are_refused_with_their_numbers() {
             field().with_vertices(&[2, 2]).map(drop),
             "cell of a vertex of cell 1 must be a cell of no other",
         ),
-    ];
-    for (result, expected) in cases {
-        let error = result.expect_err(expected).to_string();
-        assert!(error.contains(expected), "{error:?} without {expected:?}");
-    }
+    ]);
 }

@@ -120,3 +120,18 @@ fn a_given_flux_fills_at_its_rate() {
         "{drop:e}"
     );
 }
+
+#[test]
+fn terzaghi_on_a_trace_is_of_second_order() {
+    let [coarse, fine] = [(40_u32, 20), (80, 40)].map(|(cells, steps)| {
+        let share = |i: u32| f64::from(i) / f64::from(cells);
+        let positions: Vec<f64> = (0..=cells).map(|i| LAYER * share(i)).collect();
+        errors(Line::trace(&positions).expect("trace"), Side::Begin, steps)
+    });
+    // The mean is of first order, by half the end cell, whose pressure is that of the side.
+    let order = (coarse[1] / fine[1]).log2();
+    assert!(
+        order > 1.7 && fine[1] < 2e-4,
+        "{coarse:?} {fine:?}: {order}"
+    );
+}

@@ -1,0 +1,105 @@
+//! Networks of cells.
+
+use stickslip_fields::{Diffusion, Edge, Hydraulics, Network, Place, Plane, RateHistory, Well};
+
+use crate::march::{March, zone};
+
+/// The cells of a plane as a network, in another order.
+#[test]
+fn a_network_is_the_plane_of_its_cells() {
+    let counts = [9, 7];
+    // 10 is prime to 63.
+    let number = |cell: usize| 10 * cell % 63;
+    let mut edges = Vec::new();
+    for cell in 0..63 {
+        let mut join = |other: usize| {
+            let cells = [number(cell), number(other)];
+            edges.push(Edge {
+                cells,
+                length: 10.0,
+                distances: [5.0; 2],
+            });
+        };
+        if cell % 9 < 8 {
+            join(cell + 1);
+        }
+        if cell + 9 < 63 {
+            join(cell + 9);
+        }
+    }
+    let network = Network::new(vec![100.0; 63], edges).expect("network");
+    let plane = Plane::new([[0.0, 90.0], [0.0, 70.0]], counts).expect("plane");
+    let permeability = |cell: usize| 1e-14 * 1.5_f64.powi((cell % 7) as i32);
+    let mut mixed = vec![0.0; 63];
+    (0..63).for_each(|cell| mixed[number(cell)] = permeability(cell));
+    let sorted: Vec<f64> = (0..63).map(permeability).collect();
+    let rates = || RateHistory::constant(1e-4).expect("rate");
+    let of = |values: Vec<f64>| Hydraulics {
+        permeability: values.into(),
+        ..zone(0.0)
+    };
+    let plane = Diffusion::new(plane, &of(sorted)).expect("field");
+    let plane = plane
+        .with_well(Well::new(Place::Cell(30), rates()))
+        .expect("well");
+    let network = Diffusion::new(network, &of(mixed)).expect("field");
+    let network = network
+        .with_well(Well::new(Place::Cell(number(30)), rates()))
+        .expect("well");
+    let (mut plane, mut network) = (March::new(&plane), March::new(&network));
+    for dt in [10.0, 1e3, 1e5, 1e7] {
+        plane.step(dt);
+        network.step(dt);
+        let (plane, network) = (plane.pressure(), network.pressure());
+        let most = plane.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+        for (cell, pressure) in plane.iter().enumerate() {
+            assert!((pressure - network[number(cell)]).abs() < 1e-10 * most);
+        }
+    }
+    let (injected, stored) = (
+        network.total("injected volume"),
+        network.total("stored volume"),
+    );
+    assert!((stored / injected - 1.0).abs() < 1e-13);
+}
+
+/// `cos(pi x/H) exp(-alpha (pi/H)^2 t)` on a tilted square of triangles, to second order.
+#[test]
+fn a_wave_on_triangles_decays_at_its_rate() {
+    let errors = [16_usize, 32].map(|n| {
+        let side = 100.0 / n as f64;
+        let mut points = Vec::new();
+        for i in 0..=n {
+            for j in 0..=n {
+                // A plane that dips at 60 degrees.
+                let [x, y] = [j as f64 * side, i as f64 * side];
+                points.push([x, 0.5 * y, 0.75_f64.sqrt() * y]);
+            }
+        }
+        let mut triangles = Vec::new();
+        for i in 0..n {
+            for j in 0..n {
+                let at = i * (n + 1) + j;
+                triangles.push([at, at + 1, at + n + 2]);
+                triangles.push([at, at + n + 2, at + n + 1]);
+            }
+        }
+        let wave = |x: f64| (std::f64::consts::PI * x / 100.0).cos();
+        let initial: Vec<f64> = points.iter().map(|point| 1e6 * wave(point[0])).collect();
+        let network = Network::triangles(&points, &triangles).expect("network");
+        let field = Diffusion::new(network, &zone(1e-13)).expect("field");
+        let field = field.with_initial_pressure(initial).expect("pressure");
+        let mut march = March::new(&field);
+        let rate = 0.1 * (std::f64::consts::PI / 100.0).powi(2);
+        (0..200).for_each(|_| march.step(1.0 / rate / 200.0));
+        let exact = |point: &[f64; 3]| 1e6 * wave(point[0]) * (-1.0_f64).exp();
+        let pairs = march.pressure().into_iter().zip(&points);
+        pairs.fold(0.0, |most: f64, (p, point)| {
+            most.max((p - exact(point)).abs())
+        })
+    });
+    assert!(
+        errors[1] < 2e3 && (errors[0] / errors[1]).log2() > 1.7,
+        "{errors:?}"
+    );
+}
