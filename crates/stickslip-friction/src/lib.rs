@@ -20,6 +20,7 @@
 //! | [`LinearWeakening`] | `Weakening` | `mu_s - (mu_s - mu_d) min(max(w, 0), 1)`, by slip or time |
 //! | [`DieterichRuina`] | `LogTheta` | `a max(0, ln(V/Vm(alpha)))` |
 //! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
+//! | [`RegularizedInPsi`], [`StrongRateWeakening`] | `Psi` | `a asinh(V/(2 V0) exp(psi/a))` |
 //!
 //! [`ForcedRupture`] is the larger of slip and time weakening, for a contact that knows the time.
 //! [`TwoStates`] has the parameters of friction with two state variables. It is no law itself: its two
@@ -54,6 +55,7 @@ mod regularized;
 mod sliding;
 mod slip_rates;
 mod state_dependent_tresca;
+mod strong_rate_weakening;
 mod tresca;
 mod two_states;
 mod unilateral;
@@ -71,10 +73,11 @@ pub use modulus::modulus;
 pub use nodal::Nodal;
 pub use potential::{ConvexPotential, Interval, LocalModel};
 pub use radial::Radial;
-pub use regularized::RegularizedDieterichRuina;
+pub use regularized::{RegularizedDieterichRuina, RegularizedInPsi};
 pub use sliding::Sliding;
 pub use slip_rates::SlipRates;
 pub use state_dependent_tresca::StateDependentTresca;
+pub use strong_rate_weakening::StrongRateWeakening;
 pub use tresca::Tresca;
 pub use two_states::TwoStates;
 pub use unilateral::Unilateral;

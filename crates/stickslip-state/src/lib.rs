@@ -19,7 +19,10 @@
 //! | [`Ruina`] (slip) | [`LogTheta`] | `-(V/L) (alpha + ln(V/L))` |
 //! | [`PerrinRiceZheng`] | [`LogTheta`] | `exp(-alpha) - (V/2L)^2 exp(alpha)` |
 //! | [`KatoTullis`] (composite) | [`LogTheta`] | `exp(-alpha - V/Vc) - (V/L) (alpha + ln(V/L))` |
+//! | [`Sato`] (composite) | [`LogTheta`] | `exp(-alpha - W/beta) - (V/L) (alpha + ln(V/L))` with `W = V exp(alpha)/L` |
 //! | [`Nagata`] (stress weakening) | [`LogTheta`] | `(1/theta - V/L)/(1 + c)` with `theta = exp(alpha) (V/V0)^-p` |
+//! | [`StrongWeakening`] (flash heating) | [`Psi`] | `-(V/L) (psi - psi_ss(V))` |
+//! | [`InPsi`] (any law of `ln theta`) | [`Psi`] | `b alpha'` with `psi = mu0 + b ln(V0 theta/L)` |
 //! | [`Discontinuous`] | [`Theta`] | `V` below, `-V` above `theta V = 1` |
 //! | [`SlipWeakening`] (accumulated slip) | [`Weakening`] | `V/D_c` |
 //! | [`HealingSlipWeakening`] (with healing) | [`Weakening`] | `V/D_c - w/t_h` |
@@ -45,14 +48,18 @@ mod evolutions;
 mod forward;
 mod generic;
 mod healing_slip_weakening;
+mod in_psi;
 mod kato_tullis;
 mod law;
 mod many_nodes;
 mod nagata;
 mod number;
 mod perrin_rice_zheng;
+mod psi;
 mod ruina;
+mod sato;
 mod slip_weakening;
+mod strong_weakening;
 mod time_weakening;
 mod variable;
 mod weakening;
@@ -67,13 +74,17 @@ pub use discontinuous::Discontinuous;
 pub use error::StateError;
 pub use evolutions::Evolutions;
 pub use healing_slip_weakening::HealingSlipWeakening;
+pub use in_psi::InPsi;
 pub use kato_tullis::KatoTullis;
 pub use law::StateLaw;
 pub use nagata::Nagata;
 pub use number::Number;
 pub use perrin_rice_zheng::PerrinRiceZheng;
+pub use psi::Psi;
 pub use ruina::Ruina;
+pub use sato::Sato;
 pub use slip_weakening::SlipWeakening;
+pub use strong_weakening::StrongWeakening;
 pub use time_weakening::TimeWeakening;
 pub use variable::{LogScale, LogTheta, Reads, StateVariable, Theta};
 pub use weakening::Weakening;

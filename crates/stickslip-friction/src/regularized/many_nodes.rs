@@ -2,7 +2,7 @@
 
 use stickslip_core::lanes::elementary::{exp, ln};
 use stickslip_core::lanes::{LANES, Numbers, Parameter, Pass, load, run};
-use stickslip_state::LogTheta;
+use stickslip_state::{LogTheta, StateVariable};
 
 use super::balance::balance;
 use crate::{FrictionLaw, RegularizedDieterichRuina, SlipRates};
@@ -48,13 +48,13 @@ impl ManyNodes {
     }
 }
 
-struct Problems<'a> {
+struct Problems<'a, S> {
     of: &'a ManyNodes,
     /// The number of the first node.
     first: usize,
     viscosity: &'a [f64],
     drive: &'a [f64],
-    states: &'a [LogTheta],
+    states: &'a [S],
     slip_rates: &'a mut [f64],
     /// Whether a number was not normal, `c sinh(s)` included: the node is to be computed by itself.
     has_others: &'a mut bool,
@@ -69,7 +69,7 @@ fn is_normal(viscosity: f64, drive: f64, slip_rate: f64) -> bool {
         & (slip_rate <= f64::MAX)
 }
 
-impl Pass for Problems<'_> {
+impl<S: StateVariable> Pass for Problems<'_, S> {
     #[inline(always)]
     fn block(&mut self, at: usize, count: usize) {
         let first = self.first + at;
@@ -88,7 +88,7 @@ impl Pass for Problems<'_> {
         }
         let states = self.states[at..at + count].iter().zip(slope);
         for (l, (state, slope)) in l.iter_mut().zip(states) {
-            *l -= slope * state.0;
+            *l -= slope * state.value();
         }
         let mut rates = balance(&t, &l);
         let mut all = true;
@@ -101,16 +101,16 @@ impl Pass for Problems<'_> {
     }
 }
 
-struct Slopes<'a> {
+struct Slopes<'a, S> {
     of: &'a ManyNodes,
     first: usize,
     slip_rates: &'a [f64],
-    states: &'a [LogTheta],
+    states: &'a [S],
     by_rate: &'a mut [f64],
     by_state: &'a mut [f64],
 }
 
-impl Pass for Slopes<'_> {
+impl<S: StateVariable> Pass for Slopes<'_, S> {
     /// `a tanh(s)/V` and `b tanh(s)`, with `sinh(s) = V/(2 Vm)`.
     #[inline(always)]
     fn block(&mut self, at: usize, count: usize) {
@@ -139,20 +139,21 @@ impl Pass for Slopes<'_> {
 }
 
 #[inline(always)]
-fn values(states: &[LogTheta]) -> Numbers {
+fn values<S: StateVariable>(states: &[S]) -> Numbers {
     let mut values = [0.0; LANES];
     for (value, state) in values.iter_mut().zip(states) {
-        *value = state.0;
+        *value = state.value();
     }
     values
 }
 
-impl SlipRates<LogTheta> for ManyNodes {
+/// For the state of these laws, and for the state in units of friction.
+impl<S: StateVariable> SlipRates<S> for ManyNodes {
     fn slip_rates(
         &self,
         first: usize,
         [viscosity, drive]: [&[f64]; 2],
-        states: &[LogTheta],
+        states: &[S],
         slip_rates: &mut [f64],
     ) {
         let mut has_others = false;
@@ -170,7 +171,7 @@ impl SlipRates<LogTheta> for ManyNodes {
         for (k, ((&viscosity, &drive), &state)) in nodes.filter(|_| has_others) {
             if !is_normal(viscosity, drive, slip_rates[k]) {
                 let law = self.laws.get(first + k).unwrap_or(&self.laws[0]);
-                slip_rates[k] = law.slip_rate(viscosity, drive, state);
+                slip_rates[k] = law.slip_rate(viscosity, drive, LogTheta(state.value()));
             }
         }
     }
@@ -179,7 +180,7 @@ impl SlipRates<LogTheta> for ManyNodes {
         &self,
         first: usize,
         slip_rates: &[f64],
-        states: &[LogTheta],
+        states: &[S],
         [by_rate, by_state]: [&mut [f64]; 2],
     ) {
         let pass = Slopes {

@@ -3,6 +3,7 @@
 mod balance;
 #[cfg(test)]
 mod double;
+mod in_psi;
 mod many_nodes;
 
 use stickslip_state::{Dieterich, LogTheta, Ruina};
@@ -11,6 +12,8 @@ use crate::{
     DieterichRuina, FrictionError, FrictionLaw, Response, SlipRates, dieterich_ruina::ln_ratio,
 };
 use many_nodes::ManyNodes;
+
+pub use in_psi::RegularizedInPsi;
 
 /// The `mu/a` from which on `asinh` and the logarithm agree to rounding.
 const LOGARITHMIC: f64 = 20.0;

@@ -9,6 +9,7 @@ mod many_nodes;
 mod radial;
 mod regularized;
 mod sliding;
+mod strong_rate_weakening;
 mod unilateral;
 mod violations;
 mod weakening;

@@ -5,5 +5,7 @@ mod conformance;
 mod fitted;
 mod laws;
 mod reference;
+mod sato;
 mod slopes;
+mod strong_weakening;
 mod weakening;

@@ -20,6 +20,7 @@ mod jumps;
 mod local_problems;
 mod many_cells;
 mod normal_stress_effect;
+mod recurrence;
 mod runs;
 mod seas;
 mod slip_weakening;
