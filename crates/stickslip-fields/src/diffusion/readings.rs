@@ -21,13 +21,13 @@ impl Diffusion {
         let velocity = |name| Reading { name, unit: "m/s" };
         let mut quantities = match self.cells.directions() {
             0 => vec![],
-            1 => vec![(Quantity::Velocity(0), velocity("Darcy velocity"))],
+            1 => vec![(Quantity::Velocity(0), velocity("darcy_velocity"))],
             _ => vec![
                 (
                     Quantity::Velocity(0),
-                    velocity("Darcy velocity along strike"),
+                    velocity("darcy_velocity_along_strike"),
                 ),
-                (Quantity::Velocity(1), velocity("Darcy velocity down dip")),
+                (Quantity::Velocity(1), velocity("darcy_velocity_down_dip")),
             ],
         };
         quantities.push((
@@ -41,7 +41,7 @@ impl Diffusion {
             quantities.push((
                 Quantity::Porosity,
                 Reading {
-                    name: "porosity change",
+                    name: "porosity_change",
                     unit: "1",
                 },
             ));
@@ -57,11 +57,11 @@ impl Diffusion {
             "m^3"
         };
         [
-            "injected volume",
-            "stored volume",
-            "leaked volume",
-            "drained volume",
-            "pore volume",
+            "injected_volume",
+            "stored_volume",
+            "leaked_volume",
+            "drained_volume",
+            "pore_volume",
         ]
         .map(|name| Reading { name, unit })
         .to_vec()

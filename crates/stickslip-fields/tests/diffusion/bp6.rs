@@ -97,7 +97,7 @@ fn darcy_velocity_of_bp6() {
     let (field, line) = field(10.0);
     let mut march = March::new(&field);
     march.adaptively(60.0, 3.0, 50.0 * DAY);
-    let velocity = march.read("Darcy velocity");
+    let velocity = march.read("darcy_velocity");
     for (&z, velocity) in line.positions().iter().zip(velocity) {
         // -(k/eta_f) p' = (q_0/2) sign(z) erfc(abs(z)/sqrt(4 alpha t)); the mean of both directions in the well's cell.
         let reach = (4.0 * DIFFUSIVITY * 50.0 * DAY).sqrt();

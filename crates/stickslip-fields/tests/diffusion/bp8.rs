@@ -51,7 +51,7 @@ fn errors(cells: usize) -> (Vec<[f64; 2]>, usize) {
         let found = [[0.0, 0.0], [200.0, 0.0]].map(|point| at(&pressure, cells, point) / 1e6);
         [found[0] / center - 1.0, found[1] / beside - 1.0]
     });
-    let (injected, stored) = (march.total("injected volume"), march.total("stored volume"));
+    let (injected, stored) = (march.total("injected_volume"), march.total("stored_volume"));
     assert!((stored / injected - 1.0).abs() < 1e-13);
     (errors.to_vec(), march.steps)
 }

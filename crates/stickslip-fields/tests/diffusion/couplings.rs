@@ -25,8 +25,8 @@ fn leak_off_decays_exponentially() {
         let mut march = March::new(&field);
         (0..steps).for_each(|_| march.step(2e4 / f64::from(steps)));
         let exact = 2e6 * -(-2.0_f64).exp_m1();
-        let stored = march.total("stored volume");
-        assert!((march.total("leaked volume") / stored + 1.0).abs() < 1e-14);
+        let stored = march.total("stored_volume");
+        assert!((march.total("leaked_volume") / stored + 1.0).abs() < 1e-14);
         march
             .pressure()
             .iter()

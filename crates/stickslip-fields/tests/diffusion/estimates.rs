@@ -93,7 +93,7 @@ fn a_sealed_cell_parts_a_line_and_a_plane() {
                     _ => assert!((pressure - 1e5).abs() <= 1e-12 * most, "{pressure:e}"),
                 }
             }
-            let (injected, stored) = (march.total("injected volume"), march.total("stored volume"));
+            let (injected, stored) = (march.total("injected_volume"), march.total("stored_volume"));
             // To the rounding of all that is stored.
             assert!(
                 (stored - injected).abs() < 1e-12 * injected + 1e-15 * 0.3,
@@ -136,7 +136,7 @@ fn shares_of_a_source_follow_the_vertices() {
     for (volume, exact) in volumes.iter().zip([1e-5, 2e-5, 0.0, 0.0]) {
         assert!((volume - exact).abs() < 1e-8 * 1e-5, "{volumes:?}");
     }
-    assert!((march.total("injected volume") / 3e-5 - 1.0).abs() < 1e-14);
+    assert!((march.total("injected_volume") / 3e-5 - 1.0).abs() < 1e-14);
 }
 
 /// Scratch is shared by all calls: results do not depend on those before.

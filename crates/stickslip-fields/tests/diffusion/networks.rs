@@ -57,8 +57,8 @@ fn a_network_is_the_plane_of_its_cells() {
         }
     }
     let (injected, stored) = (
-        network.total("injected volume"),
-        network.total("stored volume"),
+        network.total("injected_volume"),
+        network.total("stored_volume"),
     );
     assert!((stored / injected - 1.0).abs() < 1e-13);
 }

@@ -93,7 +93,7 @@ fn a_bore_shows_the_pressure_at_its_radius() {
     let bore = march.memory[3 + 41 * 41];
     let exact = 15e6 / PI * e1(0.01 / (4.0 * 0.05 * 3.6e4));
     assert!((bore / exact - 1.0).abs() < 1e-3, "{bore:e} {exact:e}");
-    let (injected, stored) = (march.total("injected volume"), march.total("stored volume"));
+    let (injected, stored) = (march.total("injected_volume"), march.total("stored_volume"));
     assert!((stored / injected - 1.0).abs() < 1e-12);
 }
 
@@ -143,8 +143,8 @@ fn plane_waves_are_those_of_a_line() {
                     }
                 }
                 let velocity =
-                    ["Darcy velocity along strike", "Darcy velocity down dip"][usize::from(!along)];
-                let (plane, line) = (plane.read(velocity), line.read("Darcy velocity"));
+                    ["darcy_velocity_along_strike", "darcy_velocity_down_dip"][usize::from(!along)];
+                let (plane, line) = (plane.read(velocity), line.read("darcy_velocity"));
                 for (cell, value) in plane.into_iter().enumerate() {
                     assert!((value - line[place(cell)]).abs() < 1e-10 * 1e-6);
                 }
@@ -234,7 +234,7 @@ proptest! {
         for (value, exact) in march.pressure().iter().zip(&exact) {
             prop_assert!((value - exact).abs() < 1e-8 * most, "{value:e} {exact:e}");
         }
-        let (injected, stored) = (march.total("injected volume"), march.total("stored volume"));
+        let (injected, stored) = (march.total("injected_volume"), march.total("stored_volume"));
         prop_assert!((stored - injected).abs() < 1e-12 * (injected + 48.0 * 1e-7 * 1e6));
     }
 }
@@ -255,7 +255,7 @@ fn volume_over_thousands_of_steps_on_a_plane() {
     for i in 0..3000_u32 {
         march.step(60.0 * (1.0 + 5.0 * f64::from(i % 7)));
     }
-    let (injected, stored) = (march.total("injected volume"), march.total("stored volume"));
+    let (injected, stored) = (march.total("injected_volume"), march.total("stored_volume"));
     assert!(
         (stored / injected - 1.0).abs() < 1e-13,
         "{:e}",

@@ -39,8 +39,8 @@ fn errors(line: Line, side: Side, steps: u32) -> [f64; 2] {
         }
         before = time;
         let found = march.pressure();
-        let stored = march.total("stored volume") / (1e-9 * LAYER * 1e6) + 1.0;
-        let drained = march.total("drained volume") / (1e-9 * LAYER * 1e6);
+        let stored = march.total("stored_volume") / (1e-9 * LAYER * 1e6) + 1.0;
+        let drained = march.total("drained_volume") / (1e-9 * LAYER * 1e6);
         assert!((stored + drained - 1.0).abs() < 1e-13, "{stored} {drained}");
         most[0] = most[0].max((stored - mean).abs());
         // The pressure at the end by its parabola from the centre of the last cell.
@@ -109,9 +109,9 @@ fn a_given_flux_fills_at_its_rate() {
         .expect("side");
     let mut march = March::new(&field);
     (0..40).for_each(|_| march.step(1e4));
-    let stored = march.total("stored volume");
+    let stored = march.total("stored_volume");
     assert!((stored / (2e-7 * 4e5) - 1.0).abs() < 1e-13);
-    assert!((march.total("drained volume") / stored + 1.0).abs() < 1e-13);
+    assert!((march.total("drained_volume") / stored + 1.0).abs() < 1e-13);
     // Late: q x^2/(2 H), over k/eta_f, and a constant: q H/2 between both ends.
     let pressure = march.pressure();
     let drop = 2e-7 * (0.5 * LAYER - 1.0) / 1e-10;

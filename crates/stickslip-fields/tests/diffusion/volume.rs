@@ -16,7 +16,7 @@ fn volume_over_thousands_of_steps_on_a_line() {
     for i in 0..3000_u32 {
         march.step(600.0 * (1.0 + 5.0 * f64::from(i % 7)));
     }
-    let (injected, stored) = (march.total("injected volume"), march.total("stored volume"));
+    let (injected, stored) = (march.total("injected_volume"), march.total("stored_volume"));
     assert!(
         (stored / injected - 1.0).abs() < 1e-13,
         "{:e}",
@@ -49,7 +49,7 @@ proptest! {
         let mut march = March::new(&field);
         for step in steps {
             march.step(10.0_f64.powf(step));
-            let (injected, stored) = (march.total("injected volume"), march.total("stored volume"));
+            let (injected, stored) = (march.total("injected_volume"), march.total("stored_volume"));
             prop_assert!((stored - injected).abs() <= 1e-12 * injected, "{injected:e} {stored:e}");
         }
     }
