@@ -57,7 +57,13 @@ impl Diffusion {
             // Narrower than what numbers hold: a point.
             shares = vec![(cell, 1.0)];
         }
+        if let (true, Cells::Plane(plane)) = (self.fourth_order, &self.cells) {
+            plane.sharpen(&mut shares);
+        }
         self.add_injection(rates, shares, None);
+        if let Some(injection) = self.injections.last_mut() {
+            injection.spread = true;
+        }
         Ok(self)
     }
 }

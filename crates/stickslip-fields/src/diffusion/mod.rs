@@ -8,6 +8,7 @@ mod estimate;
 mod exchange;
 mod faces;
 mod field;
+mod fourth_order;
 mod gaussian;
 mod hydraulics;
 mod leak_off;
@@ -115,6 +116,8 @@ pub struct Diffusion {
     evolution: Option<Evolution>,
     dilatancy: Option<Dilatancy>,
     leak: Option<Leak>,
+    /// Whether flow is of fourth order in the size of cells.
+    fourth_order: bool,
     begin: f64,
     /// The initial pressures of cells.
     initial: Vec<f64>,
@@ -161,6 +164,7 @@ impl Diffusion {
             evolution: None,
             dilatancy: None,
             leak: None,
+            fourth_order: false,
             begin: 0.0,
             initial: vec![0.0; count],
             stored_at_start: 0.0,

@@ -78,6 +78,8 @@ pub(super) struct Injection {
     pub shares: Vec<(usize, f64)>,
     /// The sum of the shares.
     pub total: f64,
+    /// Whether the shares are means over cells of a smooth source.
+    pub spread: bool,
     /// The storage and index of a bore.
     pub bore: Option<BoreOfCell>,
 }
@@ -199,6 +201,7 @@ impl Diffusion {
             rates,
             shares,
             total,
+            spread: false,
             bore,
         });
         self.changed();

@@ -5,6 +5,7 @@ mod bp8;
 mod couplings;
 mod estimates;
 mod extremes;
+mod fourth_order;
 mod march;
 mod networks;
 mod planes;

@@ -238,6 +238,10 @@ fn sides_and_couplings() {
             "drainage time [s] must be above 0",
         ),
         (
+            field().with_fourth_order().map(drop),
+            "flow at fourth order, but the cells form a line: give a plane",
+        ),
+        (
             field().with_initial_pressure(nan).map(drop),
             "initial pressure [Pa] must be finite",
         ),
