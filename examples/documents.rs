@@ -23,6 +23,9 @@ mod documents {
     #[doc = include_str!("../docs/fault-mesh.md")]
     struct FaultMesh;
 
+    #[doc = include_str!("../docs/fields.md")]
+    struct Fields;
+
     #[doc = include_str!("../docs/fit-velocity-step.md")]
     struct FitVelocityStep;
 

@@ -7,7 +7,9 @@
 //! | [`Reading`] | a quantity that a field shows, beside its pressure |
 //! | [`Diffusion`] | a pore pressure that diffuses along the fault, with wells |
 //! | [`GivenPressure`] | a pore pressure in closed form |
-//! | [`ThermalPressurization`], [`ShearHeating`] | heat of friction across a fault, with the pore fluid that it pressurizes and alone; of a [`ShearZone`] and a [`PoreFluid`], each value [`PerVertex`] |
+//! | [`ThermalPressurization`] | heat of friction across a fault, and the pore fluid that it pressurizes |
+//! | [`ShearHeating`] | the heat alone |
+//! | [`ShearZone`], [`PoreFluid`], [`PerVertex`] | their parameters |
 //! | [`check_fault_field`] | the contract of a field, as a check of yours |
 //!
 //! A contact has any number of them; their pressures add.
