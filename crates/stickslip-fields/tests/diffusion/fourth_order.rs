@@ -84,7 +84,7 @@ proptest! {
             march.step(10.0_f64.powf(step));
         }
         let total = |name| march.total(name);
-        let (injected, stored, drained) = (total("injected volume"), total("stored volume"), total("drained volume"));
+        let (injected, stored, drained) = (total("injected_volume"), total("stored_volume"), total("drained_volume"));
         let most = injected.abs() + stored.abs() + drained.abs();
         prop_assert!((injected - stored - drained).abs() < 1e-11 * most, "{injected:e} {stored:e} {drained:e}");
         prop_assert!(march.pressure().iter().all(|p| p.is_finite()));
