@@ -15,3 +15,4 @@ mod refusals_of_wells;
 mod terzaghi;
 mod volume;
 mod wells;
+mod within;
