@@ -94,13 +94,14 @@ impl PlaneSolver {
         }
     }
 
-    /// Replaces `b` by the solution. Returns the number of iterations.
+    /// Replaces `b` by the solution, up to a relative residual. Returns the number of iterations.
     pub(super) fn solve(
         &mut self,
         diagonal: &[f64],
         conductances: &Conductances,
         q: f64,
         b: &mut [f64],
+        tolerance: f64,
     ) -> Result<usize, FieldError> {
         let Self {
             plane,
@@ -125,7 +126,7 @@ impl PlaneSolver {
             transform.back(into);
             into.iter_mut().for_each(|into| *into *= normal);
         };
-        gradients.solve(b, apply, precondition)
+        gradients.solve(b, tolerance, apply, precondition)
     }
 }
 

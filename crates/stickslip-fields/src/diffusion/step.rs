@@ -1,6 +1,7 @@
 //! A step of TR-BDF2.
 
 use super::Diffusion;
+use super::conjugate_gradients::EXACT;
 use super::exchange::{Pressures, Stage};
 use super::memory::{DRAINED, LEAKED, TIME};
 use super::system::{Conductances, System};
@@ -174,16 +175,16 @@ impl Diffusion {
         stage: Stage,
     ) -> Result<(), FieldError> {
         if !self.fourth_order {
-            return self.solve(conductances, total, work, stage);
+            return self.solve(conductances, total, work, stage, EXACT);
         }
         let mut kept = std::mem::take(&mut work.kept);
         kept.copy_from_slice(work.side(stage));
-        let mut solved = self.solve(conductances, total, work, stage);
+        let mut solved = self.solve(conductances, total, work, stage, EXACT);
         if solved.is_ok() {
             let (q, side) = (work.system.q, work.side(stage));
             self.add_fourth_order(&conductances.faces, side, q, &mut kept);
             side.copy_from_slice(&kept);
-            solved = self.solve(conductances, total, work, stage);
+            solved = self.solve(conductances, total, work, stage, EXACT);
         }
         work.kept = kept;
         solved
@@ -196,6 +197,7 @@ impl Diffusion {
         mut total: f64,
         work: &mut Work,
         stage: Stage,
+        tolerance: f64,
     ) -> Result<(), FieldError> {
         let q = work.system.q;
         let side = if stage == Stage::First {
@@ -209,7 +211,7 @@ impl Diffusion {
             side[of.cell] += volume;
             total += volume;
         }
-        work.system.solve(conductances, side, total)?;
+        work.system.solve(conductances, side, total, tolerance)?;
         for (bore, of) in work.bores.iter_mut().zip(self.bores()) {
             let index = q * bore.index;
             bore.change = (bore.side + index * side[of.cell]) / (of.storage + index);
