@@ -39,7 +39,7 @@
 //!         let z = dt / self.time;
 //!         // (1 - exp(-z))/z, and (1 - that)/z.
 //!         let first = if z > 0.0 { -(-z).exp_m1() / z } else { 1.0 };
-//!         let second = if z > 1e-3 { (1.0 - first) / z } else { 0.5 - z / 6.0 + z * z / 24.0 };
+//!         let second = if z > 1e-3 { (1.0 - first) / z } else { 0.5 - z / 6.0 + z * z / 24.0 - z.powi(3) / 120.0 };
 //!         to[0] = from[0] * (-z).exp() + dt * (first * begin[0] + second * (end[0] - begin[0]));
 //!         Ok(())
 //!     }

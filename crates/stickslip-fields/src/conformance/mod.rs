@@ -18,7 +18,7 @@ pub use violation::FieldViolation;
 /// | --- | --- |
 /// | `sizes` | have a vertex, and a finite initial memory |
 /// | `source`, `pressure`, `read`, `total` | write every value, finite |
-/// | `advance` | write every value, finite; by 0 s leave the memory as it is; by two halves of a step, with the source in their middle, lead to the end of the whole: to 1e-12 if `error` adds nothing, else the difference is of third order |
+/// | `advance` | write every value, finite; by 0 s leave the memory as it is; by two halves of a step, with the source in their middle, lead to the end of the whole: to 1e-12 if `error` adds nothing and the pressure shows it, else the difference is of third order |
 /// | `advance` without source | not let the pressure that sources have fed grow beyond the range of that of a held source; forget it alike by one long step or two |
 /// | `pressure` | add to what is there; be linear in what sources have fed |
 /// | `pressure_after` | agree with `advance` and `pressure`, to 1e-8 of the pressure |
