@@ -105,7 +105,7 @@ impl Diffusion {
         self.cells.add_half_flow(direction, &now.faces, at, rates);
         let mut add_side = |cell: usize, rate: f64, sign: f64| rates[cell] += 0.5 * sign * rate;
         for outlet in &self.outlets {
-            if let Some(sign) = outlet.side.outward(direction) {
+            if let Some(sign) = outlet.side.and_then(|side| side.outward(direction)) {
                 let conductance = now.mobility[outlet.cell] * outlet.geometry;
                 add_side(
                     outlet.cell,

@@ -1,6 +1,8 @@
 //! Networks of cells.
 
-use stickslip_fields::{Diffusion, Edge, Hydraulics, Network, Place, Plane, RateHistory, Well};
+use stickslip_fields::{
+    Boundary, Diffusion, Edge, Hydraulics, Line, Network, Place, Plane, RateHistory, Side, Well,
+};
 
 use crate::march::{March, zone};
 
@@ -149,4 +151,30 @@ fn a_plane_of_many_permeabilities_is_its_network() {
             );
         }
     }
+}
+
+/// A row of cells with an open face at its end is a line with a side of given pressure.
+#[test]
+fn an_open_face_is_a_side() {
+    let row = as_network([8, 1], |cell| cell);
+    let network = Diffusion::new(row, &zone(1e-13))
+        .and_then(|field| field.with_open_face(Place::Cell(7), [10.0, 5.0], 2e5))
+        .expect("field");
+    let line = Line::uniform([0.0, 80.0], 8).expect("line");
+    let line = Diffusion::new(line, &zone(1e-13))
+        .and_then(|field| field.with_side(Side::End, Boundary::Pressure(2e5)))
+        .expect("field");
+    let (mut network, mut line) = (March::new(&network), March::new(&line));
+    for dt in [10.0, 1e3, 1e5, 1e7] {
+        network.step(dt);
+        line.step(dt);
+        for (a, b) in network.pressure().iter().zip(line.pressure()) {
+            assert!((a - b).abs() < 1e-10 * 2e5, "{a:e} {b:e}");
+        }
+    }
+    let (stored, drained) = (
+        network.total("stored_volume"),
+        network.total("drained_volume"),
+    );
+    assert!((stored + drained).abs() < 1e-12 * stored);
 }
