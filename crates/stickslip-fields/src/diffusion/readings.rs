@@ -16,6 +16,19 @@ pub(super) enum Quantity {
 }
 
 impl Diffusion {
+    /// The change of pore pressure of every cell in a memory of the field \[Pa\], along a line or in the order of cells: also
+    /// of those that the contact does not cover.
+    pub fn cell_pressures<'a>(&self, memory: &'a [f64]) -> &'a [f64] {
+        Pressures::of(&self.places, memory).cells
+    }
+
+    /// The pressure of the wells that have a bore, in the order in which they were added \[Pa\].
+    pub fn bore_pressures<'a>(&self, memory: &'a [f64]) -> &'a [f64] {
+        Pressures::of(&self.places, memory).bores
+    }
+}
+
+impl Diffusion {
     /// The quantities per vertex with their names.
     pub(super) fn quantities(&self) -> Vec<(Quantity, Reading)> {
         let velocity = |name| Reading { name, unit: "m/s" };
