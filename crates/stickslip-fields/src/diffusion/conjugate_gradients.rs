@@ -2,8 +2,10 @@
 
 use crate::FieldError;
 
-/// The relative residual at which an iteration ends.
-const TOLERANCE: f64 = 1e-13;
+/// The relative residual at which the iteration of a step ends.
+pub(super) const EXACT: f64 = 1e-13;
+/// The same for the estimated error of a step.
+pub(super) const ROUGH: f64 = 1e-6;
 
 /// The vectors of an iteration.
 #[derive(Debug, Clone)]
@@ -25,11 +27,12 @@ impl ConjugateGradients {
         }
     }
 
-    /// Replaces `b` by the solution of `A x = b`, with `apply(x, A x)` and `precondition(r, M^-1 r)`. Returns the number of
+    /// Replaces `b` by the solution of `A x = b` up to a relative residual, with `apply(x, A x)` and `precondition(r, M^-1 r)`. Returns the number of
     /// iterations.
     pub(super) fn solve(
         &mut self,
         b: &mut [f64],
+        tolerance: f64,
         apply: impl Fn(&[f64], &mut [f64]),
         mut precondition: impl FnMut(&[f64], &mut [f64]),
     ) -> Result<usize, FieldError> {
@@ -41,7 +44,7 @@ impl ConjugateGradients {
         } = self;
         solution.fill(0.0);
         // From here `b` is the residual.
-        let bound = TOLERANCE * TOLERANCE * dot(b, b);
+        let bound = tolerance * tolerance * dot(b, b);
         let (most, mut before) = (1000 + 10 * b.len(), f64::INFINITY);
         for iteration in 0..most {
             let square = dot(b, b);

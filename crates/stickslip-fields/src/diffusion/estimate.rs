@@ -1,6 +1,7 @@
 //! The estimated error of a step.
 
 use super::Diffusion;
+use super::conjugate_gradients::ROUGH;
 use super::exchange::{Pressures, Stage};
 use super::tr_bdf2::{FIRST, HALF, error_weights};
 use super::work::Work;
@@ -50,7 +51,7 @@ impl Diffusion {
         // The sources have the same weights as the rates of their ends.
         factors = factors.map(|factor| factor / dt);
         total += self.add_sources(source, dt, factors, work, Stage::Second);
-        let solved = self.solve(conductances, total, work, Stage::Second);
+        let solved = self.solve(conductances, total, work, Stage::Second, ROUGH);
         work.own = own;
         solved
     }

@@ -41,7 +41,7 @@ impl Diffusion {
     ) -> f64 {
         into.fill(0.0);
         self.cells.add_flow(&conductances.faces, at.cells, into);
-        self.add_fourth_order(&conductances.faces, at.cells, into);
+        self.add_fourth_order(&conductances.faces, at.cells, 1.0, into);
         let mut total = 0.0;
         let mut add = |cell: usize, rate: f64| {
             into[cell] += rate;

@@ -16,10 +16,10 @@ impl Diffusion {
     /// flow = c (p_1 - p_0) - (1/12) c (p_2 - 3 p_1 + 3 p_0 - p_-1)
     /// ```
     ///
-    /// The second part is taken at the start of each step: long steps damp waves of the size of a cell by a third at least,
-    /// where flow of second order damps them at once. It is of second order where conductances change, and left out
-    /// beside sealed cells and at sides of given pressure or flux. Pressures are those at the centres of cells. Pressure
-    /// may undershoot near a point source, and the cell of a well shows the pressure at another radius.
+    /// A stage solves with the first part, and again with the second part of that solution: a step takes twice the time. It
+    /// is of second order where conductances change, and left out beside sealed cells and at sides of given pressure or
+    /// flux. Pressures are those at the centres of cells. Pressure may undershoot near a point source, and the cell of a
+    /// well shows the pressure at another radius.
     ///
     /// # Errors
     /// [`DiffusionError::Place`] for cells that are no plane.
@@ -46,8 +46,14 @@ impl Diffusion {
         Ok(self)
     }
 
-    /// Adds what the flow of fourth order has beyond that of second order.
-    pub(super) fn add_fourth_order(&self, faces: &[f64], pressure: &[f64], into: &mut [f64]) {
+    /// Adds `weight` times what the flow of fourth order has beyond that of second order.
+    pub(super) fn add_fourth_order(
+        &self,
+        faces: &[f64],
+        pressure: &[f64],
+        weight: f64,
+        into: &mut [f64],
+    ) {
         let Cells::Plane(plane) = &self.cells else {
             return;
         };
@@ -58,7 +64,7 @@ impl Diffusion {
         let ends = [[Side::Begin, Side::End], [Side::Top, Side::Bottom]].map(|of| of.map(sealed));
         for pencil in plane.pencils() {
             let faces = |i: usize| faces[pencil.first_face + i * pencil.stride_of_faces];
-            pencil.add_curvature(faces, pressure, ends[pencil.direction], into);
+            pencil.add_curvature(faces, pressure, ends[pencil.direction], weight, into);
         }
     }
 }
@@ -79,13 +85,14 @@ impl Pencil {
         self.first + i * self.stride
     }
 
-    /// Adds `-(1/12)` of the second difference of `c_i (p_(i+1) - 2 p_i + p_(i-1))`: symmetric, and no volume is lost.
+    /// Adds `-weight/12` of the second difference of `c_i (p_(i+1) - 2 p_i + p_(i-1))`: symmetric, and no volume is lost.
     /// Pressure is even at sealed ends.
     fn add_curvature(
         &self,
         faces: impl Fn(usize) -> f64,
         pressure: &[f64],
         sealed: [bool; 2],
+        weight: f64,
         into: &mut [f64],
     ) {
         let (last, mut before) = (self.count - 1, 0.0);
@@ -108,7 +115,7 @@ impl Pencil {
                 _ => 0.0,
             };
             if i > 0 {
-                let flow = FLOW * (own - before);
+                let flow = weight * FLOW * (own - before);
                 into[self.cell(i - 1)] -= flow;
                 into[self.cell(i)] += flow;
             }

@@ -19,7 +19,8 @@ pub struct Edge {
 
 /// Cells in any arrangement, such as the vertices of a surface in space.
 ///
-/// The pressure of a cell is that of the vertex of its number. All rims are sealed.
+/// The pressure of a cell is that of the vertex of its number. Rims are sealed, but for open faces
+/// ([`Diffusion::with_open_face`](super::Diffusion::with_open_face)).
 ///
 /// ```
 /// use stickslip_fields::Network;

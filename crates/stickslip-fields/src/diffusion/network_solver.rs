@@ -36,13 +36,14 @@ impl NetworkSolver {
             .for_each(|value| *value = 1.0 / *value);
     }
 
-    /// Replaces `b` by the solution. Returns the number of iterations.
+    /// Replaces `b` by the solution, up to a relative residual. Returns the number of iterations.
     pub(super) fn solve(
         &mut self,
         diagonal: &[f64],
         conductances: &Conductances,
         q: f64,
         b: &mut [f64],
+        tolerance: f64,
     ) -> Result<usize, FieldError> {
         let Self {
             network,
@@ -60,6 +61,6 @@ impl NetworkSolver {
                 *into = residual * inverse;
             }
         };
-        gradients.solve(b, apply, precondition)
+        gradients.solve(b, tolerance, apply, precondition)
     }
 }

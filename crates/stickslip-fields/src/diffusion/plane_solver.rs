@@ -2,16 +2,19 @@
 
 use super::Plane;
 use super::conjugate_gradients::ConjugateGradients;
+use super::multigrid::Multigrid;
 use super::system::Conductances;
 use super::transform::Transform;
 use crate::FieldError;
 
-/// Solves `A x = (diag(a) + q L) x = b` on a plane.
+/// The contrast of conductances along a row or between rows from which multigrid takes less time, as measured.
+const CONTRAST: f64 = 6.0;
+
+/// Solves `A x = (diag(a) + q L) x = b` on a plane by conjugate gradients.
 ///
-/// The preconditioner has along each row the mean coefficients of the row: a transform along strike makes it tridiagonal
-/// down dip. It is exact where coefficients change down dip alone. Of others with a contrast `r` along rows, iterations
-/// are some `4 sqrt(r)` at most, for cells of any size and steps of any length, and fewer where fluid diffuses less than a
-/// few cells in a step.
+/// Where conductances change little along strike, the preconditioner has along each row the mean coefficients of the row:
+/// a transform along strike makes it tridiagonal down dip. It is exact where coefficients change down dip alone. For
+/// others it is a cycle of multigrid.
 #[derive(Debug, Clone)]
 pub(super) struct PlaneSolver {
     plane: Plane,
@@ -24,6 +27,9 @@ pub(super) struct PlaneSolver {
     ratio: Vec<f64>,
     /// The elimination of a row in the next one.
     carried: Vec<f64>,
+    /// Another preconditioner, and whether it is that of the factors.
+    multigrid: Option<Box<Multigrid>>,
+    is_varied: bool,
     gradients: ConjugateGradients,
 }
 
@@ -39,6 +45,8 @@ impl PlaneSolver {
             inverse: vector(),
             ratio: vector(),
             carried: vec![0.0; columns],
+            multigrid: None,
+            is_varied: false,
             gradients: ConjugateGradients::new(count),
         }
     }
@@ -47,6 +55,14 @@ impl PlaneSolver {
     pub(super) fn factor(&mut self, diagonal: &[f64], conductances: &Conductances, q: f64) {
         let (columns, across_strike) = (self.plane.counts()[0], self.plane.faces()[0]);
         let faces = &conductances.faces;
+        self.is_varied = self.is_varied(faces);
+        if self.is_varied {
+            let new = || Box::new(Multigrid::new(self.plane.counts()));
+            self.multigrid
+                .get_or_insert_with(new)
+                .factor(diagonal, faces, q);
+            return;
+        }
         let given = self.given.map(|given| f64::from(u8::from(given)));
         self.carried.fill(0.0);
         for row in 0..self.plane.counts()[1] {
@@ -62,6 +78,22 @@ impl PlaneSolver {
             let sum = diagonal[cells].iter().sum::<f64>() - sides[0] - sides[1];
             self.factor_row(row, sum.max(0.0) / columns as f64, along, q * below);
         }
+    }
+
+    /// Whether conductances change much along a row.
+    fn is_varied(&self, faces: &[f64]) -> bool {
+        let (columns, (along, down)) = (
+            self.plane.counts()[0],
+            faces.split_at(self.plane.faces()[0]),
+        );
+        let rows = along
+            .chunks((columns - 1).max(1))
+            .chain(down.chunks(columns));
+        rows.into_iter().any(|row| {
+            let least = row.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = row.iter().copied().fold(0.0, f64::max);
+            most > CONTRAST * least
+        })
     }
 
     /// `q` times the conductances of a row to given pressures along strike.
@@ -94,19 +126,22 @@ impl PlaneSolver {
         }
     }
 
-    /// Replaces `b` by the solution. Returns the number of iterations.
+    /// Replaces `b` by the solution, up to a relative residual. Returns the number of iterations.
     pub(super) fn solve(
         &mut self,
         diagonal: &[f64],
         conductances: &Conductances,
         q: f64,
         b: &mut [f64],
+        tolerance: f64,
     ) -> Result<usize, FieldError> {
         let Self {
             plane,
             transform,
             inverse,
             ratio,
+            multigrid,
+            is_varied,
             gradients,
             ..
         } = self;
@@ -117,6 +152,11 @@ impl PlaneSolver {
             }
             plane.add_flow(&conductances.faces, x, -q, image);
         };
+        if let (true, Some(multigrid)) = (*is_varied, multigrid) {
+            let precondition =
+                |residual: &[f64], into: &mut [f64]| multigrid.precondition(residual, into);
+            return gradients.solve(b, tolerance, apply, precondition);
+        }
         let normal = 2.0 / columns as f64;
         let precondition = |residual: &[f64], into: &mut [f64]| {
             into.copy_from_slice(residual);
@@ -125,7 +165,7 @@ impl PlaneSolver {
             transform.back(into);
             into.iter_mut().for_each(|into| *into *= normal);
         };
-        gradients.solve(b, apply, precondition)
+        gradients.solve(b, tolerance, apply, precondition)
     }
 }
 

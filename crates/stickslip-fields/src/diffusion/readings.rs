@@ -16,6 +16,19 @@ pub(super) enum Quantity {
 }
 
 impl Diffusion {
+    /// The change of pore pressure of every cell in a memory of the field \[Pa\], along a line or in the order of cells: also
+    /// of those that the contact does not cover.
+    pub fn cell_pressures<'a>(&self, memory: &'a [f64]) -> &'a [f64] {
+        Pressures::of(&self.places, memory).cells
+    }
+
+    /// The pressure of the wells that have a bore, in the order in which they were added \[Pa\].
+    pub fn bore_pressures<'a>(&self, memory: &'a [f64]) -> &'a [f64] {
+        Pressures::of(&self.places, memory).bores
+    }
+}
+
+impl Diffusion {
     /// The quantities per vertex with their names.
     pub(super) fn quantities(&self) -> Vec<(Quantity, Reading)> {
         let velocity = |name| Reading { name, unit: "m/s" };
@@ -105,7 +118,7 @@ impl Diffusion {
         self.cells.add_half_flow(direction, &now.faces, at, rates);
         let mut add_side = |cell: usize, rate: f64, sign: f64| rates[cell] += 0.5 * sign * rate;
         for outlet in &self.outlets {
-            if let Some(sign) = outlet.side.outward(direction) {
+            if let Some(sign) = outlet.side.and_then(|side| side.outward(direction)) {
                 let conductance = now.mobility[outlet.cell] * outlet.geometry;
                 add_side(
                     outlet.cell,

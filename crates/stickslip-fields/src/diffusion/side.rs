@@ -1,7 +1,7 @@
 //! Sides of the cells: sealed, or with a given pressure or flux.
 
-use super::error::finite;
-use super::{Cells, Diffusion, DiffusionError};
+use super::error::{finite, positive};
+use super::{Cells, Diffusion, DiffusionError, Place};
 
 /// A side of a line or a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +36,8 @@ pub(super) struct Outlet {
     /// Conductance over mobility.
     pub geometry: f64,
     pub pressure: f64,
-    pub side: Side,
+    /// The side, none for another face.
+    pub side: Option<Side>,
 }
 
 /// The volume rate into a cell through a side of given flux.
@@ -96,9 +97,35 @@ impl Diffusion {
         Ok(self)
     }
 
+    /// Opens a face of a cell to a given pressure: at the rim of a network, or towards another fracture. The face has a
+    /// length \[m\] (1 on lines) and a distance from the pressure of the cell \[m\].
+    ///
+    /// # Errors
+    /// [`DiffusionError`] for a place outside of the cells, a length or distance that is not above 0, and a pressure that
+    /// is not finite.
+    pub fn with_open_face(
+        mut self,
+        place: impl Into<Place>,
+        [length, distance]: [f64; 2],
+        pressure: f64,
+    ) -> Result<Self, DiffusionError> {
+        positive("length of an open face [m]", None, length)?;
+        positive("distance of an open face [m]", None, distance)?;
+        finite("pressure of an open face [Pa]", None, pressure)?;
+        let (cell, geometry) = (self.cells.at("open face", place.into())?, length / distance);
+        self.outlets.push(Outlet {
+            cell,
+            geometry,
+            pressure,
+            side: None,
+        });
+        self.changed();
+        Ok(self)
+    }
+
     /// The exchange with all sides.
     fn place_sides(&mut self) {
-        self.outlets.clear();
+        self.outlets.retain(|outlet| outlet.side.is_none());
         self.inflows.clear();
         for side in Side::ALL {
             let boundary = self.sides[side as usize];
@@ -111,7 +138,7 @@ impl Diffusion {
                             cell,
                             geometry,
                             pressure,
-                            side,
+                            side: Some(side),
                         });
                     }
                     Boundary::Flux(flux) => {

@@ -1,6 +1,7 @@
 //! A step of TR-BDF2.
 
 use super::Diffusion;
+use super::conjugate_gradients::EXACT;
 use super::exchange::{Pressures, Stage};
 use super::memory::{DRAINED, LEAKED, TIME};
 use super::system::{Conductances, System};
@@ -50,12 +51,8 @@ impl Diffusion {
             bore.side = 2.0 * q * bore.flow;
         }
         let sources = self.add_sources(source, q, [2.0 - GAMMA, GAMMA], work, Stage::First);
-        self.solve(
-            conductances,
-            2.0 * q * exchanged + sources,
-            work,
-            Stage::First,
-        )?;
+        let total = 2.0 * q * exchanged + sources;
+        self.solve_stage(conductances, total, work, Stage::First)?;
         // Up to dt.
         let mut total = q * exchanged;
         for (cell, side) in work.second.iter_mut().enumerate() {
@@ -67,7 +64,7 @@ impl Diffusion {
             bore.side = FIRST * of.storage * bore.change + q * bore.flow;
         }
         total += self.add_sources(source, q, [0.0, 1.0], work, Stage::Second);
-        self.solve(conductances, total, work, Stage::Second)?;
+        self.solve_stage(conductances, total, work, Stage::Second)?;
         self.add_volumes(conductances, at.cells, q / HALF, work, to);
         let pressures = to[self.places.pressure.clone()].iter_mut();
         for (pressure, change) in pressures.zip(&work.second) {
@@ -169,6 +166,30 @@ impl Diffusion {
         system.factor(conductances, q);
     }
 
+    /// Solves a stage; with flow of fourth order again, with its part of the first solution.
+    fn solve_stage(
+        &self,
+        conductances: &Conductances,
+        total: f64,
+        work: &mut Work,
+        stage: Stage,
+    ) -> Result<(), FieldError> {
+        if !self.fourth_order {
+            return self.solve(conductances, total, work, stage, EXACT);
+        }
+        let mut kept = std::mem::take(&mut work.kept);
+        kept.copy_from_slice(work.side(stage));
+        let mut solved = self.solve(conductances, total, work, stage, EXACT);
+        if solved.is_ok() {
+            let (q, side) = (work.system.q, work.side(stage));
+            self.add_fourth_order(&conductances.faces, side, q, &mut kept);
+            side.copy_from_slice(&kept);
+            solved = self.solve(conductances, total, work, stage, EXACT);
+        }
+        work.kept = kept;
+        solved
+    }
+
     /// Solves a stage: bores are eliminated, and follow their cells.
     pub(super) fn solve(
         &self,
@@ -176,6 +197,7 @@ impl Diffusion {
         mut total: f64,
         work: &mut Work,
         stage: Stage,
+        tolerance: f64,
     ) -> Result<(), FieldError> {
         let q = work.system.q;
         let side = if stage == Stage::First {
@@ -189,7 +211,7 @@ impl Diffusion {
             side[of.cell] += volume;
             total += volume;
         }
-        work.system.solve(conductances, side, total)?;
+        work.system.solve(conductances, side, total, tolerance)?;
         for (bore, of) in work.bores.iter_mut().zip(self.bores()) {
             let index = q * bore.index;
             bore.change = (bore.side + index * side[of.cell]) / (of.storage + index);

@@ -74,20 +74,21 @@ impl System {
     }
 
     /// Replaces `b` by the solution. `total` is the sum of `b` without what cells exchange with one another: the solution
-    /// keeps it, `sum a x = total`, however large `q L` is.
+    /// keeps it, `sum a x = total`, however large `q L` is. Iterations end at a relative residual.
     pub(super) fn solve(
         &mut self,
         conductances: &Conductances,
         b: &mut [f64],
         total: f64,
+        tolerance: f64,
     ) -> Result<(), FieldError> {
         match &mut self.solver {
             Solver::Line(solver) => solver.solve(b),
             Solver::Plane(solver) => {
-                solver.solve(&self.diagonal, conductances, self.q, b)?;
+                solver.solve(&self.diagonal, conductances, self.q, b, tolerance)?;
             }
             Solver::Network(solver) => {
-                solver.solve(&self.diagonal, conductances, self.q, b)?;
+                solver.solve(&self.diagonal, conductances, self.q, b, tolerance)?;
             }
         }
         let found: f64 = self.diagonal.iter().zip(&*b).map(|(a, x)| a * x).sum();

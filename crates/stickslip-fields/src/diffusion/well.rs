@@ -13,7 +13,7 @@ const EULER: f64 = 0.577_215_664_901_532_9;
 ///
 /// Its rate enters the cell that holds the point, whose pressure is that of the homogeneous plane at a distance of
 /// `.198506 h` from a point source, `h` the size of square cells: it grows as `ln(1/h)` with smaller cells. With a bore
-/// of its own, the well keeps fluid at a pressure `p_w`, which flows to its cell:
+/// of its own, the well keeps fluid at a pressure `p_w` ([`Diffusion::bore_pressures`]), which flows to its cell:
 ///
 /// ```text
 /// S_w p_w' = Q - WI (p_w - p),    WI = 2 pi k w_h/(eta_f ln(r_e/r_w)),    r_e = exp(-.5772157)/4 sqrt(h_x^2 + h_y^2)

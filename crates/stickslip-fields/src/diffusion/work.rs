@@ -1,6 +1,7 @@
 //! Scratch of a step.
 
 use super::Diffusion;
+use super::exchange::Stage;
 use super::system::{Conductances, System};
 
 /// The numbers of a step that no memory keeps.
@@ -15,6 +16,8 @@ pub(super) struct Work {
     pub first: Vec<f64>,
     /// The change of pressure of the step.
     pub second: Vec<f64>,
+    /// The right-hand side of a stage that is solved twice; else empty.
+    pub kept: Vec<f64>,
     /// The rates of sources at both ends of the step.
     pub rates: Vec<[f64; 2]>,
     /// The bores, in the order of their sources.
@@ -48,8 +51,17 @@ impl Work {
             flow: vector(),
             first: vector(),
             second: vector(),
+            kept: vec![0.0; if field.fourth_order { count } else { 0 }],
             rates: vec![[0.0; 2]; field.injections.len()],
             bores: vec![BoreWork::default(); field.bores().count()],
+        }
+    }
+
+    /// The vector of a stage: its right-hand side, then its solution.
+    pub(super) fn side(&mut self, stage: Stage) -> &mut [f64] {
+        match stage {
+            Stage::First => &mut self.first,
+            Stage::Second => &mut self.second,
         }
     }
 }

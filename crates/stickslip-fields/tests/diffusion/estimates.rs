@@ -113,6 +113,7 @@ fn vertices_of_a_part_of_the_cells() {
     let field = field.with_vertices(&[7, 6, 12]).expect("vertices");
     assert_eq!(March::new(&field).pressure(), [7.0, 6.0, 12.0]);
     assert_eq!(field.sizes().vertices, 3);
+    assert_eq!(field.cell_pressures(&field.sizes().memory)[19], 19.0);
 }
 
 /// Shares of a source, in the order of the vertices of a trace.

@@ -2,6 +2,7 @@
 
 mod bp6;
 mod bp8;
+mod conformance;
 mod couplings;
 mod estimates;
 mod extremes;

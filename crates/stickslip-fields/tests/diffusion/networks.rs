@@ -1,17 +1,16 @@
 //! Networks of cells.
 
-use stickslip_fields::{Diffusion, Edge, Hydraulics, Network, Place, Plane, RateHistory, Well};
+use stickslip_fields::{
+    Boundary, Diffusion, Edge, Hydraulics, Line, Network, Place, Plane, RateHistory, Side, Well,
+};
 
 use crate::march::{March, zone};
 
-/// The cells of a plane as a network, in another order.
-#[test]
-fn a_network_is_the_plane_of_its_cells() {
-    let counts = [9, 7];
-    // 10 is prime to 63.
-    let number = |cell: usize| 10 * cell % 63;
+/// The cells of a plane of 10 m as a network, in another order: that of `number`.
+fn as_network([columns, rows]: [usize; 2], number: impl Fn(usize) -> usize) -> Network {
+    let count = columns * rows;
     let mut edges = Vec::new();
-    for cell in 0..63 {
+    for cell in 0..count {
         let mut join = |other: usize| {
             let cells = [number(cell), number(other)];
             edges.push(Edge {
@@ -20,14 +19,21 @@ fn a_network_is_the_plane_of_its_cells() {
                 distances: [5.0; 2],
             });
         };
-        if cell % 9 < 8 {
+        if cell % columns + 1 < columns {
             join(cell + 1);
         }
-        if cell + 9 < 63 {
-            join(cell + 9);
+        if cell + columns < count {
+            join(cell + columns);
         }
     }
-    let network = Network::new(vec![100.0; 63], edges).expect("network");
+    Network::new(vec![100.0; count], edges).expect("network")
+}
+
+#[test]
+fn a_network_is_the_plane_of_its_cells() {
+    // 10 is prime to 63.
+    let number = |cell: usize| 10 * cell % 63;
+    let (counts, network) = ([9, 7], as_network([9, 7], number));
     let plane = Plane::new([[0.0, 90.0], [0.0, 70.0]], counts).expect("plane");
     let permeability = |cell: usize| 1e-14 * 1.5_f64.powi((cell % 7) as i32);
     let mut mixed = vec![0.0; 63];
@@ -102,4 +108,73 @@ fn a_wave_on_triangles_decays_at_its_rate() {
         errors[1] < 2e3 && (errors[0] / errors[1]).log2() > 1.7,
         "{errors:?}"
     );
+}
+
+/// Multigrid on odd numbers of cells, some sealed, whose permeability changes by up to 1e4 from cell to cell; the network
+/// has another solver.
+#[test]
+fn a_plane_of_many_permeabilities_is_its_network() {
+    for counts in [[37, 23], [1, 40], [40, 1], [16, 33]] {
+        let count = counts[0] * counts[1];
+        let permeability: Vec<f64> = (0..count)
+            .map(|cell| match cell * 7919 % 101 {
+                0 => 0.0,
+                k => 1e-16 * 10.0_f64.powf(0.04 * k as f64),
+            })
+            .collect();
+        let initial: Vec<f64> = (0..count)
+            .map(|cell| 1e4 * (cell * 31 % 17) as f64)
+            .collect();
+        let hydraulics = Hydraulics {
+            permeability: permeability.into(),
+            ..zone(0.0)
+        };
+        let ends = counts.map(|count| [0.0, 10.0 * count as f64]);
+        let plane = Plane::new(ends, counts).expect("plane");
+        let fields = [
+            Diffusion::new(plane, &hydraulics),
+            Diffusion::new(as_network(counts, |cell| cell), &hydraulics),
+        ];
+        let [plane, network] = fields.map(|field| {
+            let field = field.and_then(|field| field.with_initial_pressure(initial.clone()));
+            let field = field.expect("field");
+            let mut march = March::new(&field);
+            [1.0, 1e3, 1e5, 1e7].map(|dt| {
+                march.step(dt);
+                march.pressure()
+            })
+        });
+        for (plane, network) in plane.iter().flatten().zip(network.iter().flatten()) {
+            assert!(
+                (plane - network).abs() < 1e-8 * 1.6e5,
+                "{counts:?}: {plane:e} {network:e}"
+            );
+        }
+    }
+}
+
+/// A row of cells with an open face at its end is a line with a side of given pressure.
+#[test]
+fn an_open_face_is_a_side() {
+    let row = as_network([8, 1], |cell| cell);
+    let network = Diffusion::new(row, &zone(1e-13))
+        .and_then(|field| field.with_open_face(Place::Cell(7), [10.0, 5.0], 2e5))
+        .expect("field");
+    let line = Line::uniform([0.0, 80.0], 8).expect("line");
+    let line = Diffusion::new(line, &zone(1e-13))
+        .and_then(|field| field.with_side(Side::End, Boundary::Pressure(2e5)))
+        .expect("field");
+    let (mut network, mut line) = (March::new(&network), March::new(&line));
+    for dt in [10.0, 1e3, 1e5, 1e7] {
+        network.step(dt);
+        line.step(dt);
+        for (a, b) in network.pressure().iter().zip(line.pressure()) {
+            assert!((a - b).abs() < 1e-10 * 2e5, "{a:e} {b:e}");
+        }
+    }
+    let (stored, drained) = (
+        network.total("stored_volume"),
+        network.total("drained_volume"),
+    );
+    assert!((stored + drained).abs() < 1e-12 * stored);
 }

@@ -242,6 +242,14 @@ fn sides_and_couplings() {
             "flow at fourth order, but the cells form a line: give a plane",
         ),
         (
+            field().with_open_face(1.0, [1.0, 0.0], 0.0).map(drop),
+            "distance of an open face [m] must be above 0",
+        ),
+        (
+            field().with_open_face(50.0, [1.0, 1.0], 0.0).map(drop),
+            "open face at [50.0] lies outside",
+        ),
+        (
             field().with_initial_pressure(nan).map(drop),
             "initial pressure [Pa] must be finite",
         ),
