@@ -20,16 +20,16 @@ mod diffusion;
 mod error;
 mod field;
 mod given;
+mod per_vertex;
 mod thermal;
 
 pub use conformance::{FieldViolation, check_fault_field};
 pub use diffusion::{
     Boundary, Cells, Diffusion, DiffusionError, Dilatancy, Edge, GaussianSource, Hydraulics,
-    LeakOff, Line, Network, PerCell, PermeabilityEvolution, Place, Plane, RateHistory, Side, Well,
+    LeakOff, Line, Network, PermeabilityEvolution, Place, Plane, RateHistory, Side, Well,
 };
 pub use error::FieldError;
 pub use field::{FaultField, FaultRates, FieldSizes, Reading};
 pub use given::GivenPressure;
-pub use thermal::{
-    PerVertex, PoreFluid, ShearHeating, ShearZone, ThermalError, ThermalPressurization,
-};
+pub use per_vertex::PerVertex;
+pub use thermal::{PoreFluid, ShearHeating, ShearZone, ThermalError, ThermalPressurization};

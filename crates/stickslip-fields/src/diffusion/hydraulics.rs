@@ -2,29 +2,9 @@
 
 use super::DiffusionError;
 use super::error::{not_negative, positive};
+use crate::PerVertex;
 
-/// One value for all cells, or one per cell in the order of the vertices.
-#[derive(Debug, Clone, PartialEq)]
-pub enum PerCell {
-    /// The same value in all cells.
-    Uniform(f64),
-    /// A value per cell.
-    Values(Vec<f64>),
-}
-
-impl From<f64> for PerCell {
-    fn from(value: f64) -> Self {
-        Self::Uniform(value)
-    }
-}
-
-impl From<Vec<f64>> for PerCell {
-    fn from(values: Vec<f64>) -> Self {
-        Self::Values(values)
-    }
-}
-
-impl PerCell {
+impl PerVertex {
     /// The values of so many cells; `check` sees each with its number.
     pub(super) fn values(
         &self,
@@ -37,13 +17,13 @@ impl PerCell {
                 check(what, None, *value)?;
                 Ok(vec![*value; count])
             }
-            Self::Values(values) if values.len() == count => {
+            Self::Each(values) if values.len() == count => {
                 for (cell, &value) in values.iter().enumerate() {
                     check(what, Some(cell), value)?;
                 }
                 Ok(values.clone())
             }
-            Self::Values(values) => Err(DiffusionError::Count {
+            Self::Each(values) => Err(DiffusionError::Count {
                 what,
                 expected: count,
                 found: values.len(),
@@ -58,13 +38,13 @@ impl PerCell {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hydraulics {
     /// The permeability `k` [m^2], at least 0; a cell of permeability 0 is sealed.
-    pub permeability: PerCell,
+    pub permeability: PerVertex,
     /// The viscosity of the fluid `eta_f` [Pa s], above 0.
-    pub viscosity: PerCell,
+    pub viscosity: PerVertex,
     /// The storage `beta phi` [1/Pa], above 0: the porosity times the compressibility of fluid and pores.
-    pub storage: PerCell,
+    pub storage: PerVertex,
     /// The hydraulic thickness of the zone `w_h` \[m\], above 0.
-    pub thickness: PerCell,
+    pub thickness: PerVertex,
 }
 
 /// The properties of each cell, in the order of the cells.

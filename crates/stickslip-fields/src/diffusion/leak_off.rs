@@ -1,16 +1,17 @@
 //! Leak-off into the rock beside the fault.
 
 use super::error::{finite, positive};
-use super::{Diffusion, DiffusionError, PerCell};
+use super::{Diffusion, DiffusionError};
+use crate::PerVertex;
 
 /// Leak-off through a membrane: `p' = .. - (p - p_inf)/t_d`.
 #[derive(Debug, Clone, PartialEq)]
 #[doc(alias("drainage", "membrane diffusion"))]
 pub struct LeakOff {
     /// The drainage time `t_d` \[s\], above 0.
-    pub drainage_time: PerCell,
+    pub drainage_time: PerVertex,
     /// The pore pressure of the rock beside the fault `p_inf` \[Pa\].
-    pub far_pressure: PerCell,
+    pub far_pressure: PerVertex,
 }
 
 /// The leak-off of each cell.

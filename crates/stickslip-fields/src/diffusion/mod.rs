@@ -38,7 +38,7 @@ pub use cells::{Cells, Place};
 pub use dilatancy::Dilatancy;
 pub use error::DiffusionError;
 pub use gaussian::GaussianSource;
-pub use hydraulics::{Hydraulics, PerCell};
+pub use hydraulics::Hydraulics;
 pub use leak_off::LeakOff;
 pub use line::Line;
 pub use network::{Edge, Network};
@@ -57,7 +57,7 @@ use side::{Inflow, Outlet};
 use system::Conductances;
 use well::Injection;
 
-use crate::Reading;
+use crate::{PerVertex, Reading};
 
 /// Pore pressure that diffuses along a fault zone, with wells.
 ///
@@ -197,7 +197,7 @@ impl Diffusion {
     /// [`DiffusionError`] for pressures that are not finite, and another number of them.
     pub fn with_initial_pressure(
         mut self,
-        pressure: impl Into<PerCell>,
+        pressure: impl Into<PerVertex>,
     ) -> Result<Self, DiffusionError> {
         let what = "initial pressure [Pa]";
         let values = pressure

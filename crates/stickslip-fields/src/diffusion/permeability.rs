@@ -1,7 +1,8 @@
 //! Permeability that slip raises and time heals.
 
 use super::error::{not_negative, positive};
-use super::{Diffusion, DiffusionError, PerCell};
+use super::{Diffusion, DiffusionError};
+use crate::PerVertex;
 
 /// Permeability that rises with slip and heals with time (Zhu et al., Nat. Commun. 11, 4833, 2020):
 ///
@@ -14,13 +15,13 @@ use super::{Diffusion, DiffusionError, PerCell};
 #[doc(alias("permeability enhancement", "healing", "fault valving"))]
 pub struct PermeabilityEvolution {
     /// The permeability `k_min` that healing tends to [m^2], at least 0.
-    pub minimum: PerCell,
+    pub minimum: PerVertex,
     /// The permeability `k_max` that slip tends to [m^2], at least `k_min`.
-    pub maximum: PerCell,
+    pub maximum: PerVertex,
     /// The slip `L_k` over which permeability rises \[m\], above 0.
-    pub slip_distance: PerCell,
+    pub slip_distance: PerVertex,
     /// The time `T_k` over which permeability heals \[s\], above 0; infinite for none.
-    pub healing_time: PerCell,
+    pub healing_time: PerVertex,
 }
 
 /// The evolution in each cell: of `x = (k - k_min)/(k_max - k_min)`, `x' = -(V/L_k) (x - 1) - x/T_k`.
@@ -65,7 +66,7 @@ impl Diffusion {
         evolution: &PermeabilityEvolution,
     ) -> Result<Self, DiffusionError> {
         let vertices = self.cells.vertices();
-        let values = |of: &PerCell, what, check: Check| -> Result<Vec<f64>, DiffusionError> {
+        let values = |of: &PerVertex, what, check: Check| -> Result<Vec<f64>, DiffusionError> {
             let values = of.values(what, vertices.len(), check)?;
             Ok(vertices.iter().map(|&vertex| values[vertex]).collect())
         };

@@ -11,5 +11,5 @@ mod relaxation;
 
 pub use error::ThermalError;
 pub use heating::ShearHeating;
-pub use parameters::{PerVertex, PoreFluid, ShearZone};
+pub use parameters::{PoreFluid, ShearZone};
 pub use pressurization::ThermalPressurization;
