@@ -22,7 +22,8 @@
 //! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
 //! | [`RegularizedInPsi`], [`StrongRateWeakening`] | `Psi` | `a asinh(V/(2 V0) exp(psi/a))` |
 //!
-//! [`ForcedRupture`] is the larger of slip and time weakening, for a contact that knows the time.
+//! [`ForcedRupture`] is the larger of slip and time weakening, for a contact that knows the time; [`ForcedCap`] a cap that
+//! falls with time, for any law, and [`Capped`] a law below a cap.
 //! [`TwoStates`] has the parameters of friction with two state variables. It is no law itself: its two
 //! [`parts`](TwoStates::parts) are, one for each of two contacts on the same part of the boundary. [`Radial`] turns any
 //! law, with a nodal normal force, into a [`ConvexPotential`] of a velocity vector. A solver evaluates it, linearises
@@ -38,10 +39,12 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod capped;
 mod conformance;
 mod dieterich_ruina;
 mod difference;
 mod error;
+mod forced_cap;
 mod forced_rupture;
 mod jacobi;
 mod law;
@@ -60,12 +63,14 @@ mod tresca;
 mod two_states;
 mod unilateral;
 
+pub use capped::Capped;
 pub use conformance::{
     FrictionViolation, check_convex_potential, check_friction_law, check_slip_rates,
     sample_friction_law,
 };
 pub use dieterich_ruina::DieterichRuina;
 pub use error::FrictionError;
+pub use forced_cap::ForcedCap;
 pub use forced_rupture::ForcedRupture;
 pub use law::{FrictionLaw, Response};
 pub use linear_weakening::LinearWeakening;

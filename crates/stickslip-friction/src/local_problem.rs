@@ -10,7 +10,7 @@ const EVALUATIONS: usize = 100;
 /// Number of corrections for friction below the resolution of the sum; the method is of second order.
 const CORRECTIONS: usize = 3;
 
-/// Number of chords that bound a speed from above, and the relative step of the last one.
+/// Number of chords that bound a speed from above, and the relative step of the last one and of the last one of Newton.
 const CHORDS: usize = 200;
 const CLOSE: f64 = 1e-12;
 
@@ -171,7 +171,13 @@ impl<L: FrictionLaw> Radial<L> {
             }
             let newton = speed * ((norm - 1.0) * (sum / decay)).exp();
             if (norm - 1.0).abs() <= 4.0 * f64::EPSILON {
-                return newton.max(lower).min(upper);
+                // A long step is of rounding alone, where friction has no slope, and may pass a kink.
+                let resolved = (newton - speed).abs() <= CLOSE * speed;
+                return if resolved {
+                    newton.max(lower).min(upper)
+                } else {
+                    speed
+                };
             }
             let next = if lower < newton && newton < upper {
                 newton

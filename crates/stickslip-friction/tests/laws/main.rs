@@ -1,5 +1,6 @@
 //! The claims of friction laws and their potentials: one program, a module for each theme.
 
+mod capped;
 mod common;
 mod conformance;
 mod extremes;

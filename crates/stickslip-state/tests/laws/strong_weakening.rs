@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use stickslip_state::{
     Dieterich, InPsi, KatoTullis, LogTheta, Psi, Ruina, Sato, StateLaw, StrongWeakening,
-    check_state_law,
+    check_evolutions, check_state_law,
 };
 
 use crate::common::{cases, decades};
@@ -171,6 +171,35 @@ proptest! {
         let states: Vec<_> = states.into_iter().map(Psi).collect();
         let checked = check_state_law(&law, &states);
         checked.map_err(|error| TestCaseError::fail(format!("{law:?}: {error}")))?;
+    }
+
+    /// Many nodes at a time, by laws of their own or one of all, against each by itself.
+    #[test]
+    fn passes_are_the_law_of_each_node(
+        nodes in prop::collection::vec((laws(), -1.0..2.0f64, prop_oneof![Just(0.0), Just(5e-324), decades(-30.0..2.0), decades(-307.0..300.0)]), 1..100),
+        at in any::<prop::sample::Index>(), one in any::<bool>(),
+    ) {
+        let count = if one { 1 } else { nodes.len() };
+        let laws: Vec<_> = nodes[..count].iter().map(|node| node.0).collect();
+        let states: Vec<_> = nodes.iter().map(|node| Psi(node.1)).collect();
+        let slip_rates: Vec<_> = nodes.iter().map(|node| node.2).collect();
+        let first = at.index(nodes.len());
+        let mut rates = vec![0.0; nodes.len() - first];
+        let many = StrongWeakening::evolutions(&laws).expect("passes");
+        many.evolutions(first, &states[first..], &slip_rates[first..], &mut rates);
+        for (k, found) in (first..).zip(rates) {
+            let law = laws.get(k).unwrap_or(&laws[0]);
+            let each = law.evolution(states[k], slip_rates[k]);
+            // Friction rounds with its logarithms, and next to its least value by the share of that.
+            let log = if slip_rates[k] > 0.0 { slip_rates[k].ln().abs() + 30.0 } else { 0.0 };
+            let steady = law.steady_coefficient(slip_rates[k].max(f64::MIN_POSITIVE));
+            let share = 1.0 + law.a / steady;
+            let terms = (law.a + law.b) * log * share + 2.0 * law.reference_friction * share + states[k].0.abs();
+            let bound = 16.0 * f64::EPSILON * terms * slip_rates[k] / law.slip_distance;
+            prop_assert!((found - each).abs() <= bound + f64::MIN_POSITIVE, "{k}: {found:e} {each:e} {law:?} {:e}", slip_rates[k]);
+        }
+        let checked = check_evolutions(&laws, &states[..count]);
+        checked.map_err(|error| TestCaseError::fail(error.to_string()))?;
     }
 
     #[test]

@@ -1,6 +1,9 @@
 //! The slip law towards a strongly rate-weakening steady state.
 
-use crate::{Psi, StateError, StateLaw};
+mod many_nodes;
+
+use crate::{Evolutions, Psi, StateError, StateLaw};
+use many_nodes::ManyNodes;
 
 /// The least `f_ss/a`: parameters far from those of rocks would make steady friction negative.
 const LEAST: f64 = 1e-3;
@@ -127,6 +130,10 @@ impl StateLaw for StrongWeakening {
         } else {
             0.0
         }
+    }
+
+    fn evolutions(laws: &[Self]) -> Option<Box<dyn Evolutions<Psi>>> {
+        Some(Box::new(ManyNodes::new(laws)))
     }
 
     fn evolution_state_slope(&self, _state: Psi, slip_rate: f64) -> f64 {
