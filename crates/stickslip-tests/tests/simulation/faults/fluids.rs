@@ -65,7 +65,7 @@ fn coupled(rate: f64) -> Outcome<Diffusion> {
     Ok(injection(rate)?
         .with_dilatancy(dilatancy)?
         .with_leak_off(&leak_off)?
-        .with_permeability_evolution(evolution)?)
+        .with_permeability_evolution(&evolution)?)
 }
 
 fn heat() -> Outcome<ThermalPressurization> {
