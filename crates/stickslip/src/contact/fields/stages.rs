@@ -114,13 +114,10 @@ impl<const C: usize> ContactSet<C> {
                 field.add_error(difference, last);
                 let [begin, end] = &field.sources;
                 let missed = &mut field.missed;
-                let advanced = (field.law).advance(&field.start, [begin, end], dt, missed);
-                let memory = if advanced.is_ok() {
-                    &field.missed
-                } else {
-                    &field.memory
-                };
-                field.law.pressure(memory, off);
+                let found = (field.law).pressure_after(&field.start, [begin, end], dt, off, missed);
+                if found.is_err() {
+                    field.law.pressure(&field.memory, off);
+                }
             }
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
                 change[vertex] -= off[k] - pressure[k];
