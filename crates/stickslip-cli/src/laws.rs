@@ -6,7 +6,9 @@ use stickslip::friction::{
     DieterichRuina, FrictionLaw, RegularizedDieterichRuina, StateDependentTresca, Tresca,
 };
 use stickslip::problems::spring_slider::{SpringScene, SpringSlider, steady_state};
-use stickslip::state::{Discontinuous, KatoTullis, LogTheta, PerrinRiceZheng, StateLaw, Theta};
+use stickslip::state::{
+    Discontinuous, KatoTullis, LogTheta, PerrinRiceZheng, Sato, StateLaw, Theta,
+};
 use stickslip::{BoundaryPart, Contact, NormalStress, Operator, Scene};
 
 use crate::cli::Problem;
@@ -23,6 +25,8 @@ pub enum Law {
     PerrinRiceZheng,
     /// Kato and Tullis: aging below 1e-8 m/s, slip above
     KatoTullis,
+    /// Sato, Nakatani and Ando: aging below a hundredth of the steady state, slip above
+    Sato,
     /// A discontinuous law
     Discontinuous,
     /// No state
@@ -46,7 +50,9 @@ impl Law {
     /// The map from the state variable of the law to `ln(theta / 1 s)`; NaN without a state.
     pub fn log_theta(self) -> fn(f64) -> f64 {
         match self {
-            Law::Dieterich | Law::Ruina | Law::PerrinRiceZheng | Law::KatoTullis => |alpha| alpha,
+            Law::Dieterich | Law::Ruina | Law::PerrinRiceZheng | Law::KatoTullis | Law::Sato => {
+                |alpha| alpha
+            }
             Law::Discontinuous => f64::ln,
             Law::None => |_| f64::NAN,
         }
@@ -146,6 +152,7 @@ impl Laws {
                 slip_distance,
                 aging_velocity: 1e-8,
             }),
+            Law::Sato => Box::new(Sato::new(slip_distance)),
             _ => Box::new(self.parameters.aging()),
         }
     }

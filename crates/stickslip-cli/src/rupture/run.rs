@@ -1,4 +1,4 @@
-//! Dynamic earthquake rupture: a plane (mode II) rupture, TPV101 in two dimensions.
+//! Dynamic earthquake rupture: a plane (mode II) rupture, TPV101 or TPV103 in two dimensions.
 //!
 //! One body stands for two halves, which move in opposite directions. Slip rate, slip and the laws' velocity and length
 //! are half of those across the fault, and the normal traction stays constant. The rupture is symmetric, too: on the
@@ -6,26 +6,25 @@
 //!
 //! ```text
 //! stickslip rupture --scheme implicit --cell 100
+//! stickslip rupture --law strong-weakening
 //! ```
 //!
 //! Parameters: R. Harris et al., Seismol. Res. Lett. 89 (2018), and the 2D setting of the code uguca.
 
-use super::{Arguments, INITIAL_RATE, NORMAL, SHEAR, initial, law, nucleation, report, take};
+use super::{Arguments, NORMAL, report, take};
 use crate::cli::Problem;
 use stickslip::fem::{Elastic, Impedance, P1, dashpot, elasticity, lumped_mass, mass, traction};
 use stickslip::nalgebra::Vector2;
-use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    CentralDifferences, Components, Condensed, Contact, Diagonal, GeneralizedAlpha, Scene,
-    Simulation,
+    CentralDifferences, Components, Condensed, Diagonal, GeneralizedAlpha, Scene, Simulation,
 };
 
-/// A dynamic rupture, beside the numbers of a spectral code.
+/// A dynamic rupture; that of TPV101 beside the numbers of a spectral code.
 ///
 /// # Errors
 /// In one line: a wrong setting, a failed step, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
-    let [length, height] = [36e3, arguments.height];
+    let (law, [length, height]) = (arguments.law, [36e3, arguments.height]);
     let space = P1::grid([length, height], [6, 5])?.graded(|x| arguments.size(x[1]))?;
     let fault = space.trace(|x| x[1] == 0.0)?;
     let top = space.trace(|x| x[1] == height)?;
@@ -33,16 +32,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let image = space.trace(|x| x[0] == length)?;
     // c_s = 3464 m/s and c_p = 6000 m/s.
     let (density, elastic) = (2670.0, Elastic::of_waves(2670.0, 6000.0, 3464.0)?);
-    let evolution = Dieterich {
-        slip_distance: 0.01,
-    };
-    let contact = Contact::per_vertex(&fault, fault.map(|x| law(x[0])), NORMAL)
-        .with_state(evolution, fault.map(|x| LogTheta(initial(x[0]))))
-        .with_free_normal()
-        .with_shear_stress(Vector2::new(SHEAR, 0.0));
     // The normal stress is there from the start and compresses nothing.
     let balance = traction(&space, &fault, |_| Vector2::new(0.0, -NORMAL))?;
-    let pull = traction(&space, &fault, |x| Vector2::new(nucleation(x[0]), 0.0))?;
+    let pull = traction(&space, &fault, |x| Vector2::new(law.nucleation(x[0]), 0.0))?;
     let impedance = Impedance::of(&elastic, density)?;
     let explicit = arguments.explicit();
     let inertia = if explicit {
@@ -53,12 +45,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let scene = Scene::new(elasticity(&space, &elastic)?)
         .with_mass(inertia)
         .with_viscosity(dashpot(&space, &top, |_| impedance)?)
-        .with_contact(contact)
         .fix(&middle, Components::Y)
         .fix(&image, Components::Y)
         .with_load(balance)
         .with_load_history(move |time, load| super::grow(time, &pull, load))
-        .with_velocity(vec![Vector2::new(INITIAL_RATE, 0.0); space.vertex_count()]);
+        .with_velocity(vec![
+            Vector2::new(law.initial_rate(), 0.0);
+            space.vertex_count()
+        ]);
+    let scene = law.on(scene, &fault);
     let mut rupture = if explicit {
         Simulation::new(scene, CentralDifferences, Diagonal::new())?
     } else {

@@ -6,6 +6,7 @@ mod fit_jointly;
 mod killed;
 mod pipes;
 mod refusals;
+mod rupture;
 mod spring_slider;
 mod tables;
 mod wrong;

@@ -171,6 +171,7 @@ const OTHERS: [Wrong; 37] = [
     ("rupture --cell 0", "--cell"),
     ("rupture --growth=-1", "--growth"),
     ("rupture --scheme newmark", "--scheme"),
+    ("rupture --law slip", "--law"),
     ("layer --law none", "--law"),
     ("layer --every 0", "--every"),
     ("slider3d --degrees nan", "--degrees"),

@@ -236,7 +236,8 @@ impl FrictionLaw for RegularizedDieterichRuina {
         } else {
             ln_cutoff.exp() * (2.0 * x.sinh())
         };
-        if sticks && rate < f64::MIN_POSITIVE {
+        // Whether it sticks is the coefficient's to say, to the last bit.
+        if sticks && (rate < f64::MIN_POSITIVE || drive <= self.coefficient(0.0, state)) {
             0.0
         } else {
             rate.min(free)

@@ -154,6 +154,22 @@ fn unusable_parameters_are_refused() {
     }
 }
 
+/// A drive of friction at rest to the last bit, where `Vm` is next to the smallest normal number.
+#[test]
+fn a_drive_of_friction_at_rest_moves_nothing() {
+    let law = RegularizedInPsi {
+        a: 0.002364006254343847,
+        reference_velocity: 1e-3,
+    };
+    let state = Psi(1.6605781888203985);
+    let strength = law.coefficient(0.0, state);
+    assert!(strength > 0.0);
+    for viscosity in [1e-12, 1.0, 1e12] {
+        assert_eq!(law.slip_rate(viscosity, strength, state), 0.0);
+    }
+    check_friction_law(&law, &[state]).expect("the contract");
+}
+
 /// Any parameters, rocks among them.
 fn laws() -> impl Strategy<Value = StrongRateWeakening> {
     let rocks = (0.004..0.03, 0.0..0.03, 0.2..0.9, 0.0..0.5);
@@ -183,9 +199,12 @@ proptest! {
 
     #[test]
     fn many_nodes_conform(nodes in prop::collection::vec((laws(), 0.2..0.9f64, decades(-12.0..0.0)), 1..40), one in any::<bool>()) {
-        let states: Vec<_> = nodes.iter().map(|(law, mu, rate)| law.state_of_friction(*mu, *rate)).collect();
         let count = if one { 1 } else { nodes.len() };
         let laws: Vec<_> = nodes[..count].iter().map(|node| node.0).collect();
+        let state = |(k, (_, mu, rate)): (usize, &(_, f64, f64))| {
+            laws.get(k).unwrap_or(&laws[0]).state_of_friction(*mu, *rate)
+        };
+        let states: Vec<_> = nodes.iter().enumerate().map(state).collect();
         let checked = check_slip_rates(&laws, &states);
         checked.map_err(|error| TestCaseError::fail(format!("{laws:?}: {error}")))?;
     }

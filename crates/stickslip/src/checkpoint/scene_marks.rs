@@ -73,7 +73,7 @@ impl Fingerprint {
             places.chain(numbers.map(|x| x.to_bits())).chain(mesh),
         );
         contact.describe(time, &of, self);
-        let (laws, count) = (contact.trial.laws(), part.vertices.len());
+        let (laws, count) = (contact.trial.without_caps(), part.vertices.len());
         let initial = contact.trial.initial();
         let at_rates = |value: &dyn Fn(usize, f64) -> f64| {
             let sums = RATES.map(|rate| mixed((0..count).map(|k| value(k, rate))));

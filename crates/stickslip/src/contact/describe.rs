@@ -44,6 +44,14 @@ impl<const C: usize> DiscreteContact<C> {
             let times = each.flat_map(|forced| [forced.rupture_time, forced.duration]);
             fingerprint.bits(&of("forced rupture"), times.collect::<Vec<_>>().iter());
         }
+        if let Some(caps) = &strength.cap {
+            let each = (0..self.part.vertices.len()).map(|k| caps.at(k));
+            let numbers = each.flat_map(|cap| {
+                let times = [cap.rupture_time, cap.duration];
+                [times, [cap.static_friction, cap.dynamic_friction]].concat()
+            });
+            fingerprint.bits(&of("cap of friction"), numbers.collect::<Vec<_>>().iter());
+        }
         if let Some(fields) = &self.fields {
             fields.describe(time, of, fingerprint);
         }

@@ -63,6 +63,7 @@ impl<const C: usize> DiscreteContact<C> {
         let count = part.vertices.len();
         let mut trial = Trial::new(laws?);
         trial.least = strength.least_states(count)?;
+        *trial.caps_mut() = strength.caps(count)?;
         length("normal stress", &strength.normal_stress, count)?;
         length("cohesion", &strength.cohesion, count)?;
         if let Some(shear) = &strength.shear {
@@ -197,6 +198,7 @@ impl<const C: usize> DiscreteContact<C> {
     /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
     pub(crate) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
         self.force_rupture(time);
+        self.set_caps(time);
         let constant =
             self.strength.history.is_none() && change.is_empty() && self.fields.is_none();
         if constant && self.body.is_none() {

@@ -36,8 +36,8 @@ impl<const C: usize> DiscreteContact<C> {
         let forced = self.strength.forced.as_ref();
         let least = forced.map_or(f64::NEG_INFINITY, |own| own.at(k).weakening(time).0);
         let (read, slope) = at_least(state, least);
-        let mut response = self.trial.laws().response(k, slip_rate, read);
+        let mut response = self.trial.without_caps().response(k, slip_rate, read);
         response.state_slope *= slope;
-        response
+        response.capped(self.strength.cap_at(time, k))
     }
 }

@@ -8,6 +8,7 @@ mod discrete_contact;
 mod fields;
 mod follows_slip;
 mod forced_rupture;
+mod friction_cap;
 mod frictional_node;
 mod from_body;
 mod gap;

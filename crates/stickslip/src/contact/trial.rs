@@ -8,7 +8,9 @@ use stickslip_state::StateError;
 use super::balance::balance;
 use super::quadrature::integral;
 use crate::StateUpdate;
-use crate::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change};
+use crate::laws::{
+    CappedLaws, ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change,
+};
 use crate::scene::ErasedLaws;
 
 /// A slip rate without a proposal: the state law has no solution there, or a value is not finite.
@@ -21,7 +23,7 @@ pub(crate) enum Refused {
 /// rate by the step's own state update. Vertices are counted along the contact.
 #[derive(Clone)]
 pub(crate) struct Trial {
-    laws: Arc<dyn ContactLaws>,
+    pub(super) laws: CappedLaws,
     properties: LawProperties,
     #[cfg(feature = "checkpoint")]
     initial: Vec<f64>,
@@ -71,17 +73,18 @@ impl Trial {
             #[cfg(feature = "checkpoint")]
             initial: initial.clone(),
             states: initial,
-            laws,
+            laws: CappedLaws::new(laws),
             properties,
         }
     }
 
+    #[inline]
     pub(crate) fn laws(&self) -> &dyn ContactLaws {
-        &*self.laws
+        self.laws.in_force()
     }
 
     pub(crate) fn laws_mut(&mut self) -> &mut Arc<dyn ContactLaws> {
-        &mut self.laws
+        &mut self.laws.laws
     }
 
     pub(crate) fn has_state(&self) -> bool {
@@ -155,9 +158,9 @@ impl Trial {
         for (k, left) in self.stress.iter_mut().enumerate() {
             let (start, _) = self.starts[k];
             let stress = normal_stress.map(|stress| stress[k]);
-            let moved = change(&*self.laws, k, start, stress).ok_or(Vanished(k))?;
+            let moved = change(&*self.laws.laws, k, start, stress).ok_or(Vanished(k))?;
             *left = after * moved;
-            self.starts[k].0 = self.laws.shifted(k, start, before * moved).0;
+            self.starts[k].0 = self.laws.laws.shifted(k, start, before * moved).0;
         }
         Ok(())
     }
@@ -193,7 +196,7 @@ impl Trial {
     #[inline]
     pub(crate) fn response(&self, k: usize, slip_rate: f64) -> Response {
         let (state, slope) = self.read(k);
-        let mut response = self.laws.response(k, slip_rate, state);
+        let mut response = self.laws().response(k, slip_rate, state);
         response.state_slope *= slope;
         response
     }
@@ -201,7 +204,7 @@ impl Trial {
     /// Friction with the state of a slip rate at the end of the step.
     #[inline]
     fn followed(&self, k: usize, slip_rate: f64) -> Result<Followed, StateError> {
-        self.laws.followed(k, self.start(k), slip_rate)
+        self.laws().followed(k, self.start(k), slip_rate)
     }
 
     /// The same; NaN where the law has no solution.
@@ -267,7 +270,7 @@ impl Trial {
     /// The integral of `mu`; with a condensed state by quadrature.
     pub(crate) fn potential(&self, k: usize, slip_rate: f64) -> f64 {
         if !self.eliminated {
-            return self.laws.potential(k, slip_rate, self.read(k).0);
+            return self.laws().potential(k, slip_rate, self.read(k).0);
         }
         integral(slip_rate, |rate| self.followed_or_nan(k, rate).coefficient)
     }
@@ -277,9 +280,9 @@ impl Trial {
         // Every search starts from the slip rate at the beginning of the step. A start from what was found last would be
         // nearer, but then a result would depend on what was solved before.
         let (_, start) = self.starts[k];
-        let closed_form = |state: f64| self.laws.slip_rate(k, viscosity, drive, state);
+        let closed_form = |state: f64| self.laws().slip_rate(k, viscosity, drive, state);
         let guess = if self.eliminated {
-            let state = self.laws.advanced(k, self.start(k), start);
+            let state = self.laws().advanced(k, self.start(k), start);
             closed_form(at_least(state.unwrap_or(f64::NAN), self.least(k)).0)
         } else if self.is_searched() {
             start

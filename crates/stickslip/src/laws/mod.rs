@@ -1,5 +1,6 @@
 //! The laws of a contact without their types: functions of numbers per vertex.
 
+mod capped;
 mod contact_laws;
 mod laws_at;
 mod normal_stress_effect;
@@ -8,6 +9,7 @@ mod places;
 mod rate_and_state;
 mod state_update;
 
+pub(crate) use capped::CappedLaws;
 pub(crate) use contact_laws::{
     ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change,
 };

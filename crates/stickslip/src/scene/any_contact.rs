@@ -147,6 +147,7 @@ impl<const C: usize> Strength<C> {
     fn at(self, places: &Places) -> Result<Self, SceneError> {
         let shear = self.shear.map(|shear| places.select("shear stress", shear));
         let forced = (self.forced).map(|forced| places.select("forced rupture", forced));
+        let cap = self.cap.map(|cap| places.select("cap of friction", cap));
         Ok(Self {
             normal_stress: places.select("normal stress", self.normal_stress)?,
             source: self.source,
@@ -157,6 +158,7 @@ impl<const C: usize> Strength<C> {
             cohesion: places.select("cohesion", self.cohesion)?,
             shear: shear.transpose()?,
             forced: forced.transpose()?,
+            cap: cap.transpose()?,
             fields: self.fields,
         })
     }

@@ -27,7 +27,7 @@ use crate::{BoundaryPart, SceneError};
 /// | normal velocity | zero: bilateral contact | [`with_free_normal`](Contact::with_free_normal) |
 /// | normal stress in time | constant | [`with_normal_stress_history`](Contact::with_normal_stress_history) |
 /// | effect of its changes on the state | none | [`with_normal_stress_effect`](Contact::with_normal_stress_effect) |
-/// | weakening at a given time | none | [`with_forced_rupture`](Contact::with_forced_rupture) |
+/// | weakening at a given time | none | [`with_forced_rupture`](Contact::with_forced_rupture); for any law [`with_friction_cap`](Contact::with_friction_cap) |
 /// | tension | refused | [`allow_opening`](Contact::allow_opening) |
 /// | laws at sample rates | must satisfy their contracts | [`unchecked`](Contact::unchecked) |
 /// | cohesion, initial shear stress | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
@@ -137,6 +137,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
                 cohesion: Nodal::Uniform(0.0),
                 shear: None,
                 forced: None,
+                cap: None,
                 fields: Vec::new(),
             },
             bilateral: true,
@@ -179,6 +180,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             effect: None,
             strength: Strength {
                 forced: None,
+                cap: None,
                 ..self.strength
             },
             bilateral: self.bilateral,

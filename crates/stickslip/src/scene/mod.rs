@@ -11,6 +11,7 @@ mod dirichlet;
 #[cfg(feature = "bie")]
 mod fault_part;
 mod forced_rupture;
+mod friction_cap;
 mod initial;
 mod load;
 mod matrices;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_friction::{ForcedRupture, Nodal};
+use stickslip_friction::{ForcedCap, ForcedRupture, Nodal};
 
 use super::normal_stress::Source;
 use super::relaxation::Relaxation;
@@ -78,6 +78,8 @@ pub(crate) struct Strength<const C: usize> {
     pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
     /// Forced rupture, which weakens friction beside its state.
     pub(crate) forced: Option<Nodal<ForcedRupture>>,
+    /// A cap of friction.
+    pub(crate) cap: Option<Nodal<ForcedCap>>,
     /// Fields on the fault, which take their pressure from the normal stress.
     pub(crate) fields: Vec<Arc<dyn FaultField>>,
 }

@@ -1,0 +1,45 @@
+//! `stickslip rupture`: coarse cells, and what any of them must show.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::{Outcome, folder, program};
+
+/// A rupture by strong rate weakening spreads, and leaves the weakened friction of sliding behind.
+#[test]
+fn strong_weakening_spreads() -> Outcome {
+    let folder = folder("rupture-strong")?;
+    let line = "--law strong-weakening --cell 500 --growth 0.3 --height 12e3 --until 4";
+    let output = program("rupture")
+        .args(line.split(' '))
+        .arg("--out")
+        .arg(&folder)
+        .output()?;
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{told}");
+    let summary: Value = serde_json::from_str(&fs::read_to_string(folder.join("summary.json"))?)?;
+    let stations = summary["stations"].as_array().ok_or("no stations")?;
+    let arrivals: Vec<_> = stations.iter().map(|at| at["arrival"].as_f64()).collect();
+    let [Some(first), Some(second), ..] = arrivals[..] else {
+        return Err(format!("{arrivals:?}").into());
+    };
+    assert!(first < second, "{arrivals:?}");
+    let table = fs::read_to_string(folder.join("stations.csv"))?;
+    // At the middle, where it slides at 1 m/s or more for a while: below f_ss(0.1 m/s) = 0.5246 by far, above f_w = 0.2.
+    let rows = table.lines().skip(1).filter_map(|line| {
+        let numbers: Vec<f64> = line.split(',').flat_map(str::parse).collect();
+        <[f64; 5]>::try_from(numbers).ok()
+    });
+    let sliding: Vec<_> = rows
+        .filter(|row| row[0] == 0.0 && row[2] > 2.0 && row[3] > 1.0)
+        .collect();
+    assert!(!sliding.is_empty());
+    for [_, time, _, _, stress] in sliding {
+        assert!(
+            (0.2 * 120e6..0.35 * 120e6).contains(&stress),
+            "{time}: {stress}"
+        );
+    }
+    Ok(())
+}
