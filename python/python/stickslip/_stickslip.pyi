@@ -18,6 +18,8 @@ __version__: str
 Array = NDArray[np.float64]
 PerVertex = float | ArrayLike
 Position = list[float]
+Side = Literal["begin", "end", "top", "bottom"]
+Condition = Literal["sealed"] | tuple[Literal["pressure", "flux"], float]
 
 class FrictionLaw(Protocol):
     def coefficient(self, slip_rate: float, theta: float, /) -> float: ...
@@ -361,6 +363,211 @@ def slide_hold_slide(
 ) -> tuple[Array, Array, list[tuple[float, float]]]: ...
 
 @final
+class ThermalPressurization:
+    def __new__(
+        cls,
+        *,
+        half_width: PerVertex,
+        heat_capacity: PerVertex,
+        thermal_diffusivity: PerVertex,
+        hydraulic_diffusivity: PerVertex,
+        pressurization_coefficient: PerVertex,
+        initial_temperature: PerVertex,
+        modes: int = 24,
+    ) -> Self: ...
+    @property
+    def half_width(self) -> float | Array: ...
+    @property
+    def heat_capacity(self) -> float | Array: ...
+    @property
+    def thermal_diffusivity(self) -> float | Array: ...
+    @property
+    def hydraulic_diffusivity(self) -> float | Array: ...
+    @property
+    def pressurization_coefficient(self) -> float | Array: ...
+    @property
+    def initial_temperature(self) -> float | Array: ...
+    @property
+    def modes(self) -> int: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class ShearHeating:
+    def __new__(
+        cls,
+        *,
+        half_width: PerVertex,
+        heat_capacity: PerVertex,
+        thermal_diffusivity: PerVertex,
+        initial_temperature: PerVertex,
+        modes: int = 24,
+    ) -> Self: ...
+    @property
+    def half_width(self) -> float | Array: ...
+    @property
+    def heat_capacity(self) -> float | Array: ...
+    @property
+    def thermal_diffusivity(self) -> float | Array: ...
+    @property
+    def initial_temperature(self) -> float | Array: ...
+    @property
+    def modes(self) -> int: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class Well:
+    def __new__(
+        cls,
+        position: float | Sequence[float],
+        times: ArrayLike,
+        rates: ArrayLike,
+        *,
+        interpolation: Literal["constant", "linear"] = "constant",
+        storage: float | None = None,
+        radius: float | None = None,
+        index: float | None = None,
+    ) -> Self: ...
+    @property
+    def position(self) -> float | list[float]: ...
+    @property
+    def times(self) -> Array: ...
+    @property
+    def rates(self) -> Array: ...
+    @property
+    def interpolation(self) -> str: ...
+    @property
+    def storage(self) -> float | None: ...
+    @property
+    def radius(self) -> float | None: ...
+    @property
+    def index(self) -> float | None: ...
+    def volume(self, begin: float, end: float) -> float: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class GaussianSource:
+    def __new__(
+        cls,
+        position: float | Sequence[float],
+        deviation: float,
+        times: ArrayLike,
+        rates: ArrayLike,
+        *,
+        interpolation: Literal["constant", "linear"] = "constant",
+    ) -> Self: ...
+    @property
+    def position(self) -> float | list[float]: ...
+    @property
+    def deviation(self) -> float: ...
+    @property
+    def times(self) -> Array: ...
+    @property
+    def rates(self) -> Array: ...
+    @property
+    def interpolation(self) -> str: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class LeakOff:
+    def __new__(
+        cls,
+        drainage_time: PerVertex,
+        *,
+        far_pressure: PerVertex = 0.0,
+    ) -> Self: ...
+    @property
+    def drainage_time(self) -> float | Array: ...
+    @property
+    def far_pressure(self) -> float | Array: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class Dilatancy:
+    def __new__(
+        cls,
+        *,
+        coefficient: float,
+        reference_velocity: float,
+        slip_distance: float,
+        initial_change: float = 0.0,
+    ) -> Self: ...
+    @property
+    def coefficient(self) -> float: ...
+    @property
+    def reference_velocity(self) -> float: ...
+    @property
+    def slip_distance(self) -> float: ...
+    @property
+    def initial_change(self) -> float: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class PermeabilityEvolution:
+    def __new__(
+        cls,
+        *,
+        minimum: PerVertex,
+        maximum: PerVertex,
+        slip_distance: PerVertex,
+        healing_time: PerVertex,
+    ) -> Self: ...
+    @property
+    def minimum(self) -> float | Array: ...
+    @property
+    def maximum(self) -> float | Array: ...
+    @property
+    def slip_distance(self) -> float | Array: ...
+    @property
+    def healing_time(self) -> float | Array: ...
+    def _repr_html_(self) -> str: ...
+
+@final
+class Diffusion:
+    def __new__(
+        cls,
+        *,
+        permeability: PerVertex,
+        viscosity: PerVertex,
+        storage: PerVertex,
+        thickness: PerVertex,
+        initial_pressure: PerVertex = 0.0,
+        wells: Sequence[Well] = [],
+        sources: Sequence[GaussianSource] = [],
+        sides: Mapping[Side, Condition] = {},
+        leak_off: LeakOff | None = None,
+        dilatancy: Dilatancy | None = None,
+        permeability_evolution: PermeabilityEvolution | None = None,
+        fourth_order: bool = False,
+    ) -> Self: ...
+    @property
+    def permeability(self) -> float | Array: ...
+    @property
+    def viscosity(self) -> float | Array: ...
+    @property
+    def storage(self) -> float | Array: ...
+    @property
+    def thickness(self) -> float | Array: ...
+    @property
+    def initial_pressure(self) -> float | Array: ...
+    @property
+    def wells(self) -> list[Well]: ...
+    @property
+    def sources(self) -> list[GaussianSource]: ...
+    @property
+    def sides(self) -> dict[Side, Condition]: ...
+    @property
+    def leak_off(self) -> LeakOff | None: ...
+    @property
+    def dilatancy(self) -> Dilatancy | None: ...
+    @property
+    def permeability_evolution(self) -> PermeabilityEvolution | None: ...
+    @property
+    def fourth_order(self) -> bool: ...
+    def _repr_html_(self) -> str: ...
+
+AnyField = ThermalPressurization | ShearHeating | Diffusion
+
+@final
 class LineFault:
     def __new__(
         cls,
@@ -413,6 +620,8 @@ class LineFault:
         pressure: Callable[[float], PerVertex] | None = None,
         overstress: Callable[[float], PerVertex] | None = None,
         alpha: PerVertex | None = None,
+        fields: Sequence[AnyField] = [],
+        least_normal_stress: float | None = None,
     ) -> FaultSimulation: ...
     def _repr_html_(self) -> str: ...
     def __len__(self) -> int: ...
@@ -475,6 +684,8 @@ class PlaneFault:
         pressure: Callable[[float], PerVertex] | None = None,
         overstress: Callable[[float], PerVertex] | None = None,
         alpha: PerVertex | None = None,
+        fields: Sequence[AnyField] = [],
+        least_normal_stress: float | None = None,
     ) -> FaultSimulation: ...
     def _repr_html_(self) -> str: ...
     def __len__(self) -> int: ...
@@ -519,6 +730,8 @@ class FaultSystem:
         pressure: Callable[[float], PerVertex] | None = None,
         overstress: Callable[[float], PerVertex] | None = None,
         alpha: PerVertex | None = None,
+        fields: Sequence[AnyField] = [],
+        least_normal_stress: float | None = None,
     ) -> FaultSimulation: ...
     def _repr_html_(self) -> str: ...
     def __len__(self) -> int: ...
@@ -559,6 +772,10 @@ class FaultRun:
         theta: Array,
         shear_stress: Array,
         normal_stress: Array,
+        pore_pressure: Array,
+        effective_normal_stress: Array,
+        readings: dict[str, Array],
+        totals: dict[str, Array],
         events: Events,
         steps: int,
     ) -> Self: ...
@@ -574,6 +791,14 @@ class FaultRun:
     def shear_stress(self) -> Array: ...
     @property
     def normal_stress(self) -> Array: ...
+    @property
+    def pore_pressure(self) -> Array: ...
+    @property
+    def effective_normal_stress(self) -> Array: ...
+    @property
+    def readings(self) -> dict[str, Array]: ...
+    @property
+    def totals(self) -> dict[str, Array]: ...
     @property
     def events(self) -> Events: ...
     @property
