@@ -1,9 +1,6 @@
-"""Heat and fluids on faults: closed forms, readings, restarts."""
+"""Heat and fluids on faults: closed forms and readings."""
 
-import copy
 import math
-import pickle
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +15,7 @@ RESTING = {"a": 0.02, "b": 0.01, "Dc": 1e-2, "normal_stress": 50e6, "shear_stres
 ZONE = {"permeability": 1e-13, "viscosity": 1e-3, "storage": 1e-9, "thickness": 1.0}
 HEAT = {"half_width": 0.01, "heat_capacity": 2.7e6, "thermal_diffusivity": 1e-6, "initial_temperature": 483.15}
 FLUID = {"hydraulic_diffusivity": 4e-4, "pressurization_coefficient": 1e5}
+PORES = ss.Dilatancy(coefficient=1e-5, reference_velocity=1e-9, slip_distance=1e-2)
 PEAK = 1.0 / (HEAT["half_width"] * math.sqrt(2.0 * math.pi))
 FLUX = 1.25e-6
 
@@ -188,57 +186,6 @@ def test_dilatancy_takes_pressure() -> None:
     assert run.readings["porosity_change"] == pytest.approx(steady, rel=1e-9)
 
 
-def plane(rake: object = 0.0) -> ss.PlaneFault:
-    return ss.PlaneFault([-200.0, 200.0], [0.0, 300.0], [8, 6], space="whole", rake=rake, **MEDIUM)
-
-
-def test_a_plane_takes_all_of_a_source() -> None:
-    fault = plane()
-    source = ss.GaussianSource([0.0, 150.0], 50.0, [0.0, 4e4], [0.0, 1e-4], interpolation="linear")
-    well = ss.Well((-25.0, 125.0), [0.0], [1e-4], storage=1e-9, radius=0.1)
-    k = np.full(fault.shape, 1e-14)
-    k[0, :] = 1e-15
-    runs = []
-    for permeability in (k, k.ravel()):
-        field = ss.Diffusion(**{**ZONE, "permeability": permeability}, sources=[source], wells=[well])
-        runs.append(fault.simulation(**RESTING, fields=[field], least_normal_stress=1e5).run(4e4, every=1))
-    run, flat = runs
-    assert (run.pore_pressure == flat.pore_pressure).all()
-    assert run.totals["injected_volume"][-1] == pytest.approx(2.0 + 4.0, rel=1e-12)
-    assert run.totals["stored_volume"] == pytest.approx(run.totals["injected_volume"], rel=1e-10, abs=1e-12)
-    assert run.readings["permeability"][0].reshape(fault.shape)[0, 0] == 1e-15
-    assert {"darcy_velocity_along_strike", "darcy_velocity_down_dip"} <= set(run.readings)
-    assert well.volume(0.0, 4e4) == pytest.approx(4.0, rel=1e-14)
-
-
-def test_flow_of_fourth_order_is_closer_to_a_spreading_gaussian() -> None:
-    fault = ss.PlaneFault([-800.0, 800.0], [0.0, 1600.0], [32, 32], space="whole", **MEDIUM)
-    x, y = fault.centers.T
-    square = x * x + (y - 800.0) ** 2
-    start, spread = 100.0**2, 2.0 * 0.1 * 4e4
-    errors = []
-    for fourth in (False, True):
-        pressure = 1e6 * np.exp(-square / (2.0 * start))
-        field = ss.Diffusion(**ZONE, initial_pressure=pressure, fourth_order=fourth)
-        run = fault.simulation(**RESTING, fields=[field]).run(4e4, rtol=1e-8)
-        exact = 1e6 * start / (start + spread) * np.exp(-square / (2.0 * (start + spread)))
-        errors.append(np.abs(run.pore_pressure[-1] - exact).max())
-    assert errors[1] < 0.25 * errors[0] < 1e5
-
-
-def test_a_free_rake_and_several_planes_take_heat() -> None:
-    heat = ss.ThermalPressurization(**HEAT, **FLUID)
-    stress = {**RESTING, "shear_stress": [15e6, 1e6]}
-    run = plane("free").simulation(**stress, fields=[heat]).run(1e5)
-    assert run.readings["temperature"].shape == (len(run), 48) and run.V.shape == (len(run), 48, 2)
-    half = [ss.PlaneFault([-1e3, 1e3], [1e3, 2e3], [4, 2], dip=90.0, **MEDIUM) for _ in range(2)]
-    system = ss.FaultSystem(half, strikes=[0.0, 0.0], origins=[[0.0, 0.0], [5e3, 0.0]])
-    run = system.simulation(**RESTING, fields=[heat]).run(1e5)
-    assert run.pore_pressure.shape == (len(run), 16)
-    with pytest.raises(ValueError, match=r"fields\[0\] must be ThermalPressurization or ShearHeating on several planes"):
-        system.simulation(**RESTING, fields=[ss.Diffusion(**ZONE)])
-
-
 def injected(**further: object) -> ss.FaultSimulation:
     fault = ss.LineFault([-100.0, 100.0], 11, space="whole", **MEDIUM)
     well = ss.Well(0.0, [0.0], [1e-4])
@@ -257,87 +204,3 @@ def test_pressure_beyond_the_normal_stress_is_refused_or_taken() -> None:
     assert run.pore_pressure.max() > 50e6 and run.effective_normal_stress.min() == 1e5
     run = injected(allow_opening=True).run(until)
     assert run.pore_pressure.max() > 50e6 and run.effective_normal_stress.min() == 0.0
-
-
-def field_of_everything() -> ss.Diffusion:
-    return ss.Diffusion(
-        **{**ZONE, "permeability": np.linspace(1e-15, 1e-14, 21)},
-        wells=[ss.Well(0.0, [0.0, 2e4], [1e-6, 0.0]), ss.Well(30.0, [0.0], [1e-7], storage=1e-8, index=1e-10)],
-        sources=[ss.GaussianSource(-50.0, 20.0, [0.0, 1e4], [0.0, 1e-6], interpolation="linear")],
-        sides={"begin": ("pressure", 1e5), "end": "sealed"},
-        leak_off=ss.LeakOff(1e6),
-        dilatancy=ss.Dilatancy(coefficient=1e-5, reference_velocity=1e-9, slip_distance=1e-2),
-        permeability_evolution=ss.PermeabilityEvolution(
-            minimum=1e-15, maximum=1e-13, slip_distance=1e-2, healing_time=math.inf
-        ),
-    )
-
-
-def creeping(fields: list[object]) -> ss.FaultSimulation:
-    fault = ss.LineFault([-100.0, 100.0], 21, space="whole", **MEDIUM)
-    stress = {**RESTING, "shear_stress": 29e6, "theta": 1e6}
-    return fault.simulation(**stress, fields=fields)  # type: ignore[arg-type]
-
-
-def test_a_restart_has_the_same_bits(tmp_path: Path) -> None:
-    fields = [field_of_everything(), ss.ThermalPressurization(**HEAT, **FLUID)]
-    simulation = creeping(fields)
-    simulation.run(1e4)
-    state = simulation.state()
-    simulation.save(tmp_path / "checkpoint")
-    run = simulation.run(5e4, every=1)
-    assert len(run) > 10 and run.pore_pressure[-1].any() and run.slip[-1].max() > 0.0
-    restored, loaded = creeping(pickle.loads(pickle.dumps(fields))), creeping(copy.deepcopy(fields))
-    restored.restore(pickle.loads(pickle.dumps(state)))
-    loaded.load(tmp_path / "checkpoint")
-    for other in (restored.run(5e4, every=1), loaded.run(5e4, every=1), pickle.loads(pickle.dumps(run))):
-        for name in ("t", "slip", "V", "pore_pressure", "effective_normal_stress", "shear_stress"):
-            assert (getattr(run, name) == getattr(other, name)).all()
-        for mine, its in ((run.readings, other.readings), (run.totals, other.totals)):
-            assert list(mine) == list(its) and all((mine[name] == its[name]).all() for name in mine)
-    with pytest.raises(ss.SceneError):
-        creeping([]).restore(state)
-    with pytest.raises(ss.FileError):
-        creeping(fields[::-1]).load(tmp_path / "checkpoint")
-
-
-def test_fields_are_plain_data() -> None:
-    field = field_of_everything()
-    parts = [*field.wells, *field.sources, field.leak_off, field.dilatancy, field.permeability_evolution]
-    for value in (field, ss.ShearHeating(**HEAT), ss.ThermalPressurization(**HEAT, **FLUID, modes=30), *parts):
-        twin = pickle.loads(pickle.dumps(value))
-        assert type(twin) is type(value) and repr(twin) == repr(value)
-        assert value._repr_html_().startswith("<table>")
-    assert repr(field.wells[0]) == "Well(position=0, times=<array of 2>, rates=<array of 2>, interpolation='constant')"
-    assert field.sides == {"begin": ("pressure", 1e5), "end": "sealed"}
-    assert field.permeability.shape == (21,) and field.viscosity == 1e-3
-    # A copy: later changes of the argument leave it as it is.
-    rates = np.array([1e-6])
-    well = ss.Well([0.0, 1.0], [0.0], rates)
-    rates[0] = 0.0
-    assert well.rates[0] == 1e-6 and well.position == [0.0, 1.0]
-
-
-def test_runs_without_fields_have_no_pressure() -> None:
-    fault = ss.LineFault([0.0, 1e3], 8, **MEDIUM)
-    run = fault.simulation(**RESTING).run(1e4)
-    assert not run.pore_pressure.any() and run.pore_pressure.shape == run.normal_stress.shape
-    assert run.effective_normal_stress is run.normal_stress
-    assert run.readings == {} and run.totals == {}
-
-
-def test_tables_and_pictures_show_fields() -> None:
-    pandas = pytest.importorskip("pandas")
-    pytest.importorskip("matplotlib").use("Agg")
-    from stickslip import plots
-
-    run = creeping([field_of_everything()]).run(1e4)
-    table = run.to_frame(cells=[3])
-    assert isinstance(table, pandas.DataFrame)
-    assert (table["pore_pressure"] == run.pore_pressure[:, 3]).all()
-    assert (table["darcy_velocity"] == run.readings["darcy_velocity"][:, 3]).all()
-    assert "darcy_velocity" in run._repr_html_() and "injected_volume" in run._repr_html_()
-    assert plots.history(run, "pore_pressure", cell=3).get_ylabel() == "pore pressure [MPa]"
-    assert plots.history(run, "permeability", cell=3).get_ylabel().startswith("permeability")
-    with pytest.raises(ValueError, match="darcy_velocity"):
-        plots.history(run, "temperature")

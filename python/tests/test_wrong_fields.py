@@ -64,6 +64,16 @@ def on_plane(**wrong: object) -> object:
     return fault.simulation(**CELLS, fields=[diffusion(**wrong)])  # type: ignore[arg-type]
 
 
+def slider(**wrong: object) -> object:
+    return ss.SpringSlider(1e9, 1e6, a=0.01, b=0.015, Dc=1e-5, **wrong)  # type: ignore[arg-type]
+
+
+def on_planes(**wrong: object) -> object:
+    half = [ss.PlaneFault([-1e3, 1e3], [1e3, 2e3], [4, 2], dip=90.0, **MEDIUM) for _ in range(2)]
+    system = ss.FaultSystem(half, strikes=[0.0, 0.0], origins=[[0.0, 0.0], [5e3, 0.0]])
+    return system.simulation(**CELLS, fields=[diffusion(**wrong)])  # type: ignore[arg-type]
+
+
 BORE = {"storage": 1e-9, "radius": 0.1}
 
 WRONG: list[tuple[Callable[..., object], dict[str, object], str]] = [
@@ -142,6 +152,14 @@ WRONG: list[tuple[Callable[..., object], dict[str, object], str]] = [
     (on_plane, {"wells": [well()]}, "fields[0].wells[0].position"),
     (on_plane, {"wells": [well(position=[0.0, 500.0], storage=1e-9, radius=1e3)]}, "fields[0].wells[0]"),
     (on_plane, {"sources": [source()]}, "fields[0].sources[0].position"),
+    (on_plane, {"plane": 0}, "fields[0].plane"),
+    (on_planes, {}, "fields[0].plane"),
+    (on_planes, {"plane": 2}, "fields[0].plane"),
+    (on_planes, {"plane": 1, "permeability": [1e-13] * 16}, "fields[0].permeability"),
+    (diffusion, {"plane": -1}, "plane"),
+    (slider, {"fields": [diffusion()]}, "fields[0]"),
+    (slider, {"fields": [thermal(half_width=[0.01, 0.02])]}, "fields[0].half_width"),
+    (slider, {"fields": 3}, "fields"),
 ]
 
 RUST = ["::", "Py", "PerVertex", "Vec<", "f64", "usize", "variant", "unwrap", "panicked", "Some(", "`with_"]

@@ -61,7 +61,7 @@ def _time(t: Any) -> tuple[Any, str]:
 
 def _field(run: SliderRun | FaultRun, name: str) -> Any:
     """A field by its name: moduli of vectors, stresses in MPa."""
-    readings = run.readings if isinstance(run, FaultRun) else {}
+    readings = run.readings
     if name not in FIELDS or not (hasattr(run, name) or name in readings):
         known = [known for known in FIELDS if hasattr(run, known) or known in readings]
         raise ValueError(f"field must be one of {', '.join(known)}, is {name!r}")
@@ -80,8 +80,8 @@ def history(run: SliderRun | FaultRun, field: str = "V", *, cell: int | None = N
     """A field over time: of a slider, of one cell of a fault, or the largest of all cells.
 
     Args:
-        field: "V", "slip", "theta", "shear_stress", "normal_stress"; of a slider "mu", too; of a fault "pore_pressure",
-            "effective_normal_stress" and the readings of its fields, such as "temperature".
+        field: "V", "slip", "theta", "shear_stress", "normal_stress"; of a slider "mu", too; "pore_pressure",
+            "effective_normal_stress" and the readings of fields, such as "temperature".
         cell: the number of a cell.
     """
     values = _field(run, field)

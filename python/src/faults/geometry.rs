@@ -63,16 +63,23 @@ impl Geometry {
     pub(super) fn cells(&self) -> FieldCells {
         let plane = |cells: &Rectangles| {
             let axes = [cells.along_strike(), cells.down_dip()];
-            Ground::Plane(axes.map(Cells::ends), axes.map(Cells::count))
+            (axes.map(Cells::ends), axes.map(Cells::count))
         };
         let line = |cells: &Cells| Ground::Line(cells.ends(), cells.count());
         FieldCells {
             ground: match self {
                 Self::Line(fault) => line(fault.cells()),
                 Self::Dipping(fault) => line(fault.cells()),
-                Self::Plane(fault) => plane(fault.cells()),
-                Self::Free(fault) => plane(fault.cells()),
-                Self::Planes(_) | Self::FreePlanes(_) => Ground::Planes,
+                Self::Plane(fault) => Ground::Plane(plane(fault.cells())),
+                Self::Free(fault) => Ground::Plane(plane(fault.cells())),
+                Self::Planes(system) => {
+                    let planes = system.planes().iter();
+                    Ground::Planes(planes.map(|fault| plane(fault.cells())).collect())
+                }
+                Self::FreePlanes(system) => {
+                    let planes = system.planes().iter();
+                    Ground::Planes(planes.map(|fault| plane(fault.cells())).collect())
+                }
             },
             layout: self.layout(),
         }

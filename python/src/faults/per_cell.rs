@@ -10,7 +10,7 @@ use crate::errors::{Bare, argument};
 #[derive(Clone, Copy)]
 pub(crate) struct Layout {
     pub(crate) count: usize,
-    pub(super) shape: Option<[usize; 2]>,
+    pub(crate) shape: Option<[usize; 2]>,
 }
 
 impl Layout {

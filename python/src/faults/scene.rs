@@ -95,7 +95,7 @@ fn built<const C: usize>(
         shear_stress,
         opens: given.allow_opening,
         pressure: CellFunction::given(py, "pressure", given.pressure, layout, raised)?,
-        fields: Fields::on(given.fields, fault)?,
+        fields: Fields::on(&given.fields, &fault)?,
         least_stress: least.transpose()?,
     };
     let stepper = call.detach(py, || build(loading, friction));

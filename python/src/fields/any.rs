@@ -7,10 +7,12 @@ use stickslip::fields::{
 };
 use stickslip::state::StateLaw;
 
+use super::on_planes::{OnPlane, OnPlanes};
 use super::{Cells, Diffusion, ShearHeating, ThermalPressurization};
 use crate::arguments::wrong_type;
 
 /// A field of any kind, as an argument of Python.
+#[derive(IntoPyObjectRef)]
 pub(crate) enum AnyField {
     Thermal(Py<ThermalPressurization>),
     Heating(Py<ShearHeating>),
@@ -38,6 +40,7 @@ enum Field {
     Thermal(Pressurization),
     Heating(Heating),
     Diffusion(Box<Fluid>),
+    OnPlanes(OnPlanes),
 }
 
 /// The fields on the cells of a fault.
@@ -45,18 +48,31 @@ pub(crate) struct Fields(Vec<Field>);
 
 impl Fields {
     /// Those of Python.
-    pub(crate) fn on(given: Vec<AnyField>, cells: Cells) -> PyResult<Self> {
-        let fields = given.into_iter().enumerate().map(|(n, field)| {
+    pub(crate) fn on(given: &[AnyField], cells: &Cells) -> PyResult<Self> {
+        let (mut fields, mut on_planes) = (Vec::new(), Vec::new());
+        for (n, field) in given.iter().enumerate() {
             let name = format!("fields[{n}]");
-            Ok(match field {
+            fields.push(match field {
                 AnyField::Thermal(field) => Field::Thermal(field.get().on(&name, cells)?),
                 AnyField::Heating(field) => Field::Heating(field.get().on(&name, cells)?),
                 AnyField::Diffusion(field) => {
-                    Field::Diffusion(Box::new(field.get().on(&name, cells)?))
+                    let field = field.get();
+                    if let Some((plane, cells)) = cells.of_plane(&name, field.plane())? {
+                        let fluid = field.on(&name, &plane)?;
+                        on_planes.push(OnPlane { fluid, cells });
+                        continue;
+                    }
+                    Field::Diffusion(Box::new(field.on(&name, cells)?))
                 }
-            })
-        });
-        fields.collect::<PyResult<_>>().map(Self)
+            });
+        }
+        if !on_planes.is_empty() {
+            fields.push(Field::OnPlanes(OnPlanes::new(
+                on_planes,
+                cells.layout.count,
+            )));
+        }
+        Ok(Self(fields))
     }
 
     /// The contact with these fields.
@@ -69,6 +85,7 @@ impl Fields {
             Field::Thermal(field) => contact.with_field(field),
             Field::Heating(field) => contact.with_field(field),
             Field::Diffusion(field) => contact.with_field(*field),
+            Field::OnPlanes(field) => contact.with_field(field),
         })
     }
 }

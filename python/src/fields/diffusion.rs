@@ -17,7 +17,7 @@ use crate::plain::{Reduced, fields, html, reduced, text};
 ///     storage thickness p' = div(thickness permeability/viscosity grad p) + Q delta + q - thickness phi'
 ///                            - storage thickness (p - far_pressure)/drainage_time
 ///
-/// The cells are those of the LineFault or PlaneFault that takes it; p is the change of pore pressure [Pa], 0 at time 0.
+/// The cells are those of the LineFault or PlaneFault that takes it, or of one plane of a FaultSystem; p is the change of pore pressure [Pa], 0 at time 0.
 /// Runs have the readings "darcy_velocity" [m/s], on a plane "darcy_velocity_along_strike" and "darcy_velocity_down_dip",
 /// "permeability" [m^2] and "porosity_change", and the totals "injected_volume", "stored_volume", "leaked_volume",
 /// "drained_volume" and "pore_volume" [m^3], on a line [m^2].
@@ -37,6 +37,8 @@ use crate::plain::{Reduced, fields, html, reduced, text};
 ///     dilatancy: Dilatancy, pores that open with the slip rate.
 ///     permeability_evolution: PermeabilityEvolution, which slip raises and time heals.
 ///     fourth_order: whether flow is of fourth order in the size of cells, for smooth pressures on a plane.
+///     plane: the number of the plane of a FaultSystem that it follows: values per cell and positions are those of this plane,
+///         readings are nan on others.
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct Diffusion {
     #[pyo3(get)]
@@ -63,6 +65,8 @@ pub(crate) struct Diffusion {
     permeability_evolution: Option<Py<PermeabilityEvolution>>,
     #[pyo3(get)]
     fourth_order: bool,
+    #[pyo3(get)]
+    plane: Option<usize>,
 }
 
 #[pymethods]
@@ -70,8 +74,8 @@ impl Diffusion {
     #[new]
     #[pyo3(signature = (*, permeability, viscosity, storage, thickness, initial_pressure=CellValues::from(0.0), wells=Vec::new(),
                         sources=Vec::new(), sides=Sides::default(), leak_off=None, dilatancy=None,
-                        permeability_evolution=None, fourth_order=false),
-           text_signature = "(*, permeability, viscosity, storage, thickness, initial_pressure=0.0, wells=[], sources=[], sides={}, leak_off=None, dilatancy=None, permeability_evolution=None, fourth_order=False)")]
+                        permeability_evolution=None, fourth_order=false, plane=None),
+           text_signature = "(*, permeability, viscosity, storage, thickness, initial_pressure=0.0, wells=[], sources=[], sides={}, leak_off=None, dilatancy=None, permeability_evolution=None, fourth_order=False, plane=None)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         #[pyo3(from_py_with = named)] permeability: CellValues,
@@ -86,6 +90,7 @@ impl Diffusion {
         #[pyo3(from_py_with = named)] dilatancy: Option<Py<Dilatancy>>,
         #[pyo3(from_py_with = named)] permeability_evolution: Option<Py<PermeabilityEvolution>>,
         #[pyo3(from_py_with = named)] fourth_order: bool,
+        #[pyo3(from_py_with = named)] plane: Option<usize>,
     ) -> PyResult<Self> {
         Ok(Self {
             permeability: permeability.within("permeability", &NOT_NEGATIVE)?,
@@ -100,6 +105,7 @@ impl Diffusion {
             dilatancy,
             permeability_evolution,
             fourth_order,
+            plane,
         })
     }
 
@@ -121,12 +127,17 @@ impl Diffusion {
     fn given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         Ok(
             fields!(py, self; permeability, viscosity, storage, thickness, initial_pressure, wells, sources, sides,
-                              leak_off, dilatancy, permeability_evolution, fourth_order),
+                              leak_off, dilatancy, permeability_evolution, fourth_order, plane),
         )
     }
 
+    /// The number of the plane that it follows.
+    pub(super) fn plane(&self) -> Option<usize> {
+        self.plane
+    }
+
     /// The field of a fault.
-    pub(super) fn on(&self, name: &str, cells: Cells) -> PyResult<Fluid> {
+    pub(super) fn on(&self, name: &str, cells: &Cells) -> PyResult<Fluid> {
         let layout = cells.layout;
         let of = |values: &CellValues, what: &str| -> PyResult<PerCell> {
             values.on(&format!("{name}.{what}"), layout)
@@ -173,7 +184,7 @@ impl Diffusion {
     }
 
     /// The field with its wells and sources.
-    fn fed(&self, name: &str, cells: Cells, mut field: Fluid) -> PyResult<Fluid> {
+    fn fed(&self, name: &str, cells: &Cells, mut field: Fluid) -> PyResult<Fluid> {
         for (n, well) in self.wells.iter().enumerate() {
             let name = format!("{name}.wells[{n}]");
             let well = well.get().on(&name, cells)?;

@@ -90,7 +90,7 @@ impl GaussianSource {
     }
 
     /// The source on the cells of a fault.
-    pub(super) fn on(&self, name: &str, cells: Cells) -> PyResult<Source> {
+    pub(super) fn on(&self, name: &str, cells: &Cells) -> PyResult<Source> {
         let place = self.position.on(&format!("{name}.position"), cells)?;
         let rates = self.rates.history.clone();
         Ok(Source::new(place, self.deviation, rates))

@@ -86,7 +86,7 @@ impl ShearHeating {
     }
 
     /// The field of a fault.
-    pub(super) fn on(&self, name: &str, cells: Cells) -> PyResult<Heating> {
+    pub(super) fn on(&self, name: &str, cells: &Cells) -> PyResult<Heating> {
         let Layout { count, .. } = cells.layout;
         check_memory(name, &[count, self.modes], MODE)?;
         let zone = zone(

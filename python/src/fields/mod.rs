@@ -8,6 +8,7 @@ mod gaussian;
 mod ground;
 mod heating;
 mod leak_off;
+mod on_planes;
 mod permeability;
 mod position;
 mod rates;

@@ -41,7 +41,7 @@ impl Position {
     }
 
     /// The place on the cells of a fault.
-    pub(super) fn on(self, name: &str, cells: Cells) -> PyResult<Place> {
+    pub(super) fn on(self, name: &str, cells: &Cells) -> PyResult<Place> {
         match (self, cells.is_line()) {
             (Self::Along(position), true) => Ok(position.into()),
             (Self::On(position), false) => Ok(position.into()),

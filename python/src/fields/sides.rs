@@ -97,7 +97,7 @@ impl<'py> IntoPyObject<'py> for &Sides {
 
 impl Sides {
     /// The conditions at the sides of a fault, each with its name in messages.
-    pub(super) fn on(&self, name: &str, cells: Cells) -> PyResult<Vec<(Side, Boundary)>> {
+    pub(super) fn on(&self, name: &str, cells: &Cells) -> PyResult<Vec<(Side, Boundary)>> {
         let sides = self.0.iter().map(|&(side, of, boundary)| {
             if cells.is_line() && matches!(of, Side::Top | Side::Bottom) {
                 let name = format!("{name}.sides");

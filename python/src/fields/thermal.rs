@@ -96,7 +96,7 @@ impl ThermalPressurization {
     }
 
     /// The field of a fault.
-    pub(super) fn on(&self, name: &str, cells: Cells) -> PyResult<Pressurization> {
+    pub(super) fn on(&self, name: &str, cells: &Cells) -> PyResult<Pressurization> {
         let layout = cells.layout;
         check_memory(name, &[layout.count, self.modes, 2], MODE)?;
         let zone = zone(

@@ -128,7 +128,7 @@ impl Well {
     }
 
     /// The well on the cells of a fault.
-    pub(super) fn on(&self, name: &str, cells: Cells) -> PyResult<FluidWell> {
+    pub(super) fn on(&self, name: &str, cells: &Cells) -> PyResult<FluidWell> {
         let place = self.position.on(&format!("{name}.position"), cells)?;
         let well = FluidWell::new(place, self.rates.history.clone());
         match (self.storage, self.radius, self.index) {
