@@ -110,6 +110,8 @@ fn step(py: Python<'_>, cause: &StepError, message: String, at: Option<&StepFail
             Data { what, vertex, value },
             Law { what, vertex, slip_rate, state, value },
             Tension { vertex, normal_stress },
+            PorePressure { vertex, pore_pressure, normal_stress },
+            Field { field },
             Penetration { vertex, opening },
             NotContracting { vertex, contraction, iterations, dt },
             NormalStressEffect { vertex, from, to },

@@ -5,6 +5,7 @@ mod bodies;
 mod errors;
 mod exit;
 mod faults;
+mod fields;
 mod lab;
 mod laws;
 mod memory;
@@ -26,6 +27,11 @@ mod _stickslip {
     #[pymodule_export]
     use super::faults::{
         FaultRun, FaultSimulation, FaultSystem, LineFault, PlaneFault, SeasFiles, SeasTable,
+    };
+    #[pymodule_export]
+    use super::fields::{
+        Diffusion, Dilatancy, GaussianSource, LeakOff, PermeabilityEvolution, ShearHeating,
+        ThermalPressurization, Well,
     };
     #[pymodule_export]
     use super::lab::{

@@ -13,6 +13,7 @@ use stickslip::{Snapshot, Steps};
 use crate::arguments::{Load, Numbers, count, named, non_negative, positive, sample_times};
 use crate::errors::{self, argument};
 use crate::exit::Call;
+use crate::fields::AnyField;
 use crate::laws::{Evolution, Friction, Further, given, parameters};
 use crate::plain::{Reduced, html, reduced, text};
 use crate::progress::Progress;
@@ -48,6 +49,7 @@ use crate::slider_run::{Samples, SliderRun};
 ///     theta: state at time 0 [s]; by default that of steady sliding at the velocity of the load.
 ///     Vc: slip rate up to which contacts age [m/s], > 0, of law="kato-tullis".
 ///     c: weight of the stress rate, > 0, of law="nagata".
+///     fields: ThermalPressurization or ShearHeating of the surface of the block. Their pore pressure lowers the normal stress.
 ///
 /// Raises:
 ///     ValueError: for a value out of its range; the message names the argument.
@@ -88,14 +90,16 @@ pub(crate) struct SpringSlider {
     Vc: Option<f64>,
     #[pyo3(get)]
     c: Option<f64>,
+    #[pyo3(get)]
+    fields: Vec<AnyField>,
 }
 
 #[pymethods]
 impl SpringSlider {
     #[new]
     #[pyo3(signature = (stiffness, normal_stress, *, a=None, b=None, Dc=None, mu0=0.6, V0=1e-6, friction=None, law=None,
-                        damping=0.0, mass=0.0, load=Load::Steady(1e-6), V=None, theta=None, Vc=None, c=None),
-           text_signature = "(stiffness, normal_stress, *, a=None, b=None, Dc=None, mu0=0.6, V0=1e-6, friction='cut-off', law='aging', damping=0.0, mass=0.0, load=1e-06, V=None, theta=None, Vc=None, c=None)")]
+                        damping=0.0, mass=0.0, load=Load::Steady(1e-6), V=None, theta=None, Vc=None, c=None, fields=Vec::new()),
+           text_signature = "(stiffness, normal_stress, *, a=None, b=None, Dc=None, mu0=0.6, V0=1e-6, friction='cut-off', law='aging', damping=0.0, mass=0.0, load=1e-06, V=None, theta=None, Vc=None, c=None, fields=[])")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
@@ -116,6 +120,7 @@ impl SpringSlider {
         #[pyo3(from_py_with = named)] theta: Option<f64>,
         #[pyo3(from_py_with = named)] Vc: Option<f64>,
         #[pyo3(from_py_with = named)] c: Option<f64>,
+        #[pyo3(from_py_with = named)] fields: Vec<AnyField>,
     ) -> PyResult<Self> {
         let _call = Call::begin()?;
         let parameters = || {
@@ -129,14 +134,9 @@ impl SpringSlider {
             damping: non_negative("damping", damping)?,
             load: load.clone().path()?,
         };
-        let friction = match friction {
-            Some(friction) => friction.clone(),
-            None => PyString::new(py, "cut-off").into_any(),
-        };
-        let law = match law {
-            Some(law) => law.clone(),
-            None => PyString::new(py, "aging").into_any(),
-        };
+        let by_name = |name: &str| PyString::new(py, name).into_any();
+        let friction = friction.cloned().unwrap_or_else(|| by_name("cut-off"));
+        let law = law.cloned().unwrap_or_else(|| by_name("aging"));
         let V = non_negative("V", V.unwrap_or_else(|| slider.load.velocity(0.0)))?;
         let further = Further {
             aging_velocity: Vc,
@@ -150,6 +150,7 @@ impl SpringSlider {
             ),
             Vc,
             c,
+            fields,
             slider,
             stiffness,
             normal_stress,
@@ -208,7 +209,8 @@ impl SpringSlider {
     ///     progress: whether a bar of tqdm, if it is installed, or a line shows the time reached.
     ///
     /// Returns:
-    ///     SliderRun: arrays t, V, theta, mu, slip and shear_stress, one entry per sample.
+    ///     SliderRun: arrays t, V, theta, mu, slip, shear_stress, pore_pressure and effective_normal_stress, one entry per
+    ///         sample.
     ///
     /// Raises:
     ///     StepError: for a step that fails, such as a slip instability without mass and damping.
@@ -241,7 +243,7 @@ impl SpringSlider {
             .stopping_at(self.slider.load.kinks())
             .until(until);
         let times = sample_times(t_eval, [begin, until])?;
-        let mut samples = Samples::new(origin);
+        let mut samples = Samples::new(origin, &stepper.snapshot());
         if times.is_none() {
             samples.add(&stepper.snapshot(), &self.laws.1);
         }
@@ -272,12 +274,12 @@ impl SpringSlider {
         let error = match report {
             Ok(report) => {
                 let taken_back = report.rejected + report.failed;
-                return Ok(SliderRun::of(py, samples, taken_back, state));
+                return SliderRun::of(py, samples, taken_back, state);
             }
             Err(Ended::Raised(error)) => error,
             Err(Ended::Failed(failure)) => errors::failure(py, &failure),
         };
-        let partial = SliderRun::of(py, samples, 0, state);
+        let partial = SliderRun::of(py, samples, 0, state)?;
         error.value(py).setattr("partial", partial)?;
         Err(error)
     }

@@ -26,6 +26,12 @@ pub(crate) struct SliderRun {
     slip: Py<PyArray1<f64>>,
     /// Shear stress [Pa], of the sign of the slip rate; without damping and mass that of the spring.
     shear_stress: Py<PyArray1<f64>>,
+    /// Pore pressure of the fields [Pa]; 0 without any.
+    pore_pressure: Py<PyArray1<f64>>,
+    /// Normal stress that friction sees [Pa], less the pore pressure.
+    effective_normal_stress: Py<PyArray1<f64>>,
+    /// Arrays of what fields show, by name, such as "temperature" [K].
+    readings: Py<PyDict>,
     /// The number of steps that were rejected.
     rejected: usize,
     /// The end of the run, from which another one goes on; it can be pickled.
@@ -35,7 +41,7 @@ pub(crate) struct SliderRun {
 #[pymethods]
 impl SliderRun {
     #[new]
-    #[pyo3(signature = (*, t, V, theta, mu, slip, shear_stress, rejected, state))]
+    #[pyo3(signature = (*, t, V, theta, mu, slip, shear_stress, pore_pressure, effective_normal_stress, readings, rejected, state))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         t: Py<PyArray1<f64>>,
@@ -44,6 +50,9 @@ impl SliderRun {
         mu: Py<PyArray1<f64>>,
         slip: Py<PyArray1<f64>>,
         shear_stress: Py<PyArray1<f64>>,
+        pore_pressure: Py<PyArray1<f64>>,
+        effective_normal_stress: Py<PyArray1<f64>>,
+        readings: Py<PyDict>,
         rejected: usize,
         state: Py<PyBytes>,
     ) -> Self {
@@ -54,6 +63,9 @@ impl SliderRun {
             mu,
             slip,
             shear_stress,
+            pore_pressure,
+            effective_normal_stress,
+            readings,
             rejected,
             state,
         }
@@ -63,9 +75,15 @@ impl SliderRun {
         self.t.bind(py).as_any().len()
     }
 
-    /// A table of pandas with a row per sample.
+    /// A table of pandas with a row per sample; with fields it has their pressures and readings, too.
     fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let columns = fields!(py, self; t, V, theta, mu, slip, shear_stress);
+        let readings = self.readings.bind(py);
+        if !readings.is_empty() {
+            let pressures = fields!(py, self; pore_pressure, effective_normal_stress);
+            columns.update(pressures.as_mapping())?;
+            columns.update(readings.as_mapping())?;
+        }
         helper(py, "_frames", "columns", (columns,))
     }
 
@@ -87,16 +105,25 @@ impl SliderRun {
 /// Samples of a run.
 pub(crate) struct Samples {
     origin: f64,
-    /// t, V, theta, mu, slip, shear stress.
-    columns: [Vec<f64>; 6],
+    /// t, V, theta, mu, slip, shear stress, pore pressure, effective normal stress.
+    columns: [Vec<f64>; 8],
+    /// What fields show, by name.
+    readings: Vec<(&'static str, Vec<f64>)>,
 }
 
 impl Samples {
     /// No samples yet, of a block that was at `origin` [m] at time 0.
-    pub(crate) fn new(origin: f64) -> Self {
+    pub(crate) fn new(origin: f64, block: &Snapshot<'_, 1>) -> Self {
+        let mut readings: Vec<(&str, Vec<f64>)> = Vec::new();
+        for reading in block.contact(0).readings() {
+            if readings.iter().all(|(name, _)| *name != reading.name) {
+                readings.push((reading.name, Vec::new()));
+            }
+        }
         Self {
             origin,
             columns: Default::default(),
+            readings,
         }
     }
 
@@ -118,9 +145,14 @@ impl Samples {
             contact.coefficient(0),
             at.displacement[0][0] - self.origin,
             contact.traction(0)[0],
+            contact.pore_pressure(0),
+            contact.effective_normal_stress(0),
         ];
         for (column, value) in self.columns.iter_mut().zip(row) {
             column.push(value);
+        }
+        for (name, values) in &mut self.readings {
+            values.extend(contact.reading(name).unwrap_or_default());
         }
     }
 }
@@ -132,23 +164,42 @@ impl SliderRun {
         samples: Samples,
         rejected: usize,
         state: Bound<'_, PyBytes>,
-    ) -> Self {
-        let [t, V, theta, mu, slip, shear_stress] = samples
-            .columns
-            .map(|column| column.into_pyarray(py).unbind());
-        Self {
+    ) -> PyResult<Self> {
+        let readings = PyDict::new(py);
+        for (name, values) in samples.readings {
+            readings.set_item(name, values.into_pyarray(py))?;
+        }
+        let [
             t,
             V,
             theta,
             mu,
             slip,
             shear_stress,
+            pore_pressure,
+            effective_normal_stress,
+        ] = samples
+            .columns
+            .map(|column| column.into_pyarray(py).unbind());
+        Ok(Self {
+            t,
+            V,
+            theta,
+            mu,
+            slip,
+            shear_stress,
+            pore_pressure,
+            effective_normal_stress,
+            readings: readings.unbind(),
             rejected,
             state: state.unbind(),
-        }
+        })
     }
 
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        Ok(fields!(py, self; t, V, theta, mu, slip, shear_stress, rejected, state))
+        Ok(
+            fields!(py, self; t, V, theta, mu, slip, shear_stress, pore_pressure, effective_normal_stress, readings,
+                              rejected, state),
+        )
     }
 }

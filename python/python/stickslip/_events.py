@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 class Events(np.ndarray[Any, np.dtype[np.void]]):
     """Events, a structured array with an entry each: onset, arrest [s], origin (the number of the cell), hypocentre [m],
-    peak_slip_rate [m/s], cells, area, mean_slip, largest_slip [m], moment, stress_drop [Pa]. An event that is under way at
-    the end has nan as its arrest.
+    peak_slip_rate [m/s], cells, area, mean_slip, largest_slip [m], moment, stress_drop [Pa], and pressure_change [Pa], the
+    mean change of pore pressure. An event that is under way at the end has nan as its arrest.
     """
 
     def to_frame(self) -> pandas.DataFrame:

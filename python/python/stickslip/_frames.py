@@ -31,8 +31,11 @@ def cells(fields: dict[str, Any], chosen: Any) -> pandas.DataFrame:
     if numbers.dtype.kind not in "iu" or numbers.ndim != 1 or ((numbers < 0) | (numbers >= count)).any():
         raise ValueError(f"cells must be numbers of cells from 0 to {count - 1}, is {chosen!r}")
     table = {"t": np.repeat(times, len(numbers)), "cell": np.tile(numbers, len(times))}
-    for name in ("V", "slip", "theta", "shear_stress", "normal_stress"):
-        field = fields[name][:, numbers]
+    names = ["V", "slip", "theta", "shear_stress", "normal_stress"]
+    # Of a fault with fields.
+    names += ["pore_pressure", "effective_normal_stress", *fields["readings"]] if fields["readings"] else []
+    for name in names:
+        field = fields["readings"].get(name, fields.get(name))[:, numbers]
         if field.ndim == 2:
             table[name] = field.ravel()
         else:

@@ -47,10 +47,16 @@ def _cells(tag: str, row: tuple[str, ...]) -> str:
     return "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in row)
 
 
+def _arrays(name: str, value: Any) -> list[tuple[str, Any]]:
+    """An array with its name, or those of a dictionary with theirs."""
+    return list(value.items()) if isinstance(value, dict) else [(name, value)]
+
+
 def ranges(name: str, fields: dict[str, Any]) -> str:
     """The ranges of the arrays of a run as a table of HTML."""
     rows = []
-    for key, value in fields.items():
+    flat = {name: field for key, value in fields.items() for name, field in _arrays(key, value)}
+    for key, value in flat.items():
         if getattr(value, "ndim", 0) and value.size and value.dtype.names is None:
             rows.append((key, " x ".join(map(str, value.shape)), f"{value.min():.6g}", f"{value.max():.6g}"))
     return html(name, ("array", "shape", "smallest", "largest"), rows)

@@ -29,6 +29,14 @@ FIELDS = {
     "mu": "coefficient of friction",
     "shear_stress": "shear stress [MPa]",
     "normal_stress": "normal stress [MPa]",
+    "effective_normal_stress": "effective normal stress [MPa]",
+    "pore_pressure": "pore pressure [MPa]",
+    "temperature": "temperature [K]",
+    "darcy_velocity": "Darcy velocity [m/s]",
+    "darcy_velocity_along_strike": "Darcy velocity along strike [m/s]",
+    "darcy_velocity_down_dip": "Darcy velocity down dip [m/s]",
+    "permeability": "permeability [m$^2$]",
+    "porosity_change": "change of porosity",
 }
 
 
@@ -53,13 +61,14 @@ def _time(t: Any) -> tuple[Any, str]:
 
 def _field(run: SliderRun | FaultRun, name: str) -> Any:
     """A field by its name: moduli of vectors, stresses in MPa."""
-    if name not in FIELDS or not hasattr(run, name):
-        known = [known for known in FIELDS if hasattr(run, known)]
+    readings = run.readings
+    if name not in FIELDS or not (hasattr(run, name) or name in readings):
+        known = [known for known in FIELDS if hasattr(run, known) or known in readings]
         raise ValueError(f"field must be one of {', '.join(known)}, is {name!r}")
-    values = np.asarray(getattr(run, name))
+    values = np.asarray(readings[name] if name in readings else getattr(run, name))
     if values.ndim == 3:
         values = np.linalg.norm(values, axis=-1)
-    return values * 1e-6 if name.endswith("stress") else values
+    return values * 1e-6 if name.endswith(("stress", "pressure")) else values
 
 
 def _modulus(values: Any) -> Any:
@@ -71,7 +80,8 @@ def history(run: SliderRun | FaultRun, field: str = "V", *, cell: int | None = N
     """A field over time: of a slider, of one cell of a fault, or the largest of all cells.
 
     Args:
-        field: "V", "slip", "theta", "shear_stress", "normal_stress"; of a slider "mu", too.
+        field: "V", "slip", "theta", "shear_stress", "normal_stress"; of a slider "mu", too; "pore_pressure",
+            "effective_normal_stress" and the readings of fields, such as "temperature".
         cell: the number of a cell.
     """
     values = _field(run, field)
@@ -142,7 +152,7 @@ def fault_map(
     """A field on a plane at one sample, with a colour bar; slip rates and states by their logarithms.
 
     Args:
-        field: "V", "slip", "theta", "shear_stress" or "normal_stress".
+        field: as of `history`.
         sample: its number; by default the last one.
     """
     values = _field(run, field)[sample].reshape(fault.shape)

@@ -28,6 +28,7 @@ pub(super) fn hint_of_step(error: &StepError) -> Option<&'static str> {
             "allow_opening=True lets it open, unless its normal motion is prescribed or contacts meet there that do not \
              all open along one normal"
         }
+        StepError::PorePressure { .. } => "allow_opening=True or least_normal_stress=[Pa] takes it",
         StepError::TooManySteps {
             limit: Limit::Error(_),
             ..

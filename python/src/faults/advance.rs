@@ -10,7 +10,8 @@ use stickslip::{Snapshot, Steps};
 
 use super::callback::asked;
 use super::cycle::FaultSimulation;
-use super::record::{FaultRun, Record};
+use super::record::FaultRun;
+use super::samples::Record;
 use super::seas::SeasFiles;
 use crate::errors;
 use crate::exit::{Call, attached};

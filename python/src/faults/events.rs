@@ -7,7 +7,7 @@ use stickslip::record::Event;
 use crate::plain::helper;
 
 /// Names and types of the columns.
-const COLUMNS: [(&str, &str); 11] = [
+const COLUMNS: [(&str, &str); 12] = [
     ("onset", "f8"),
     ("arrest", "f8"),
     ("origin", "i8"),
@@ -19,6 +19,7 @@ const COLUMNS: [(&str, &str); 11] = [
     ("largest_slip", "f8"),
     ("moment", "f8"),
     ("stress_drop", "f8"),
+    ("pressure_change", "f8"),
 ];
 
 /// A structured array with one entry per event.
@@ -40,6 +41,7 @@ pub(super) fn table<'py>(py: Python<'py>, events: &[Event]) -> PyResult<Bound<'p
             event.largest_slip,
             event.moment,
             event.stress_drop,
+            event.pressure_change,
         )
     });
     let rows = PyList::new(py, rows.collect::<Vec<_>>())?;

@@ -7,6 +7,7 @@ use stickslip::{BoundaryPart, Contact, Operator, Scene};
 
 use super::function::CellFunction;
 use super::laws::CellLaws;
+use crate::fields::Fields;
 
 /// Friction with parameters per cell.
 pub(super) struct CellFriction<const C: usize> {
@@ -23,6 +24,10 @@ pub(super) struct CellFriction<const C: usize> {
     pub(super) opens: bool,
     /// The pressure of a fluid \[Pa\], which lowers the normal stress.
     pub(super) pressure: Option<CellFunction>,
+    /// Heat and fluids on the fault.
+    pub(super) fields: Fields,
+    /// The least normal stress that friction sees \[Pa\].
+    pub(super) least_stress: Option<f64>,
 }
 
 impl<const C: usize> CellFriction<C> {
@@ -73,6 +78,11 @@ impl<const C: usize> CellFriction<C> {
         } else {
             contact
         };
+        let contact = match self.least_stress {
+            Some(stress) => contact.with_least_normal_stress(stress),
+            None => contact,
+        };
+        let contact = self.fields.in_contact(contact);
         let Some(pressure) = self.pressure else {
             return scene.with_contact(contact);
         };

@@ -1,7 +1,7 @@
 //! A planar fault: cells, rock, and the operators of its motion.
 
 use stickslip::bie::{
-    Cells, DippingFault, Fault, FaultCells, FaultGeometry, FaultSystem, PlaneFault,
+    Cells, DippingFault, Fault, FaultCells, FaultGeometry, FaultSystem, PlaneFault, Rectangles,
 };
 use stickslip::integrate::Stepper;
 use stickslip::nalgebra::Vector2;
@@ -10,6 +10,7 @@ use stickslip::{Operator, RungeKutta, Scene, SceneError};
 use super::friction::CellFriction;
 use super::loading::Loading;
 use super::per_cell::Layout;
+use crate::fields::{Cells as FieldCells, Ground};
 
 /// A fault.
 #[derive(Clone)]
@@ -45,7 +46,7 @@ impl Geometry {
     }
 
     /// The number of cells, and those of a plane down dip and along strike.
-    pub(super) fn layout(&self) -> Layout {
+    fn layout(&self) -> Layout {
         let shape = match self {
             Self::Line(_) | Self::Dipping(_) => None,
             Self::Planes(_) | Self::FreePlanes(_) => None,
@@ -55,6 +56,32 @@ impl Geometry {
         Layout {
             count: self.count(),
             shape: shape.map(|cells| [cells.down_dip().count(), cells.along_strike().count()]),
+        }
+    }
+
+    /// The cells as fields need them.
+    pub(super) fn cells(&self) -> FieldCells {
+        let plane = |cells: &Rectangles| {
+            let axes = [cells.along_strike(), cells.down_dip()];
+            (axes.map(Cells::ends), axes.map(Cells::count))
+        };
+        let line = |cells: &Cells| Ground::Line(cells.ends(), cells.count());
+        FieldCells {
+            ground: match self {
+                Self::Line(fault) => line(fault.cells()),
+                Self::Dipping(fault) => line(fault.cells()),
+                Self::Plane(fault) => Ground::Plane(plane(fault.cells())),
+                Self::Free(fault) => Ground::Plane(plane(fault.cells())),
+                Self::Planes(system) => {
+                    let planes = system.planes().iter();
+                    Ground::Planes(planes.map(|fault| plane(fault.cells())).collect())
+                }
+                Self::FreePlanes(system) => {
+                    let planes = system.planes().iter();
+                    Ground::Planes(planes.map(|fault| plane(fault.cells())).collect())
+                }
+            },
+            layout: self.layout(),
         }
     }
 

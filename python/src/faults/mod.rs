@@ -13,6 +13,7 @@ mod loading;
 mod per_cell;
 mod plane;
 mod record;
+mod samples;
 mod scene;
 mod seas;
 mod seas_table;
@@ -20,6 +21,7 @@ mod system;
 
 pub(crate) use cycle::FaultSimulation;
 pub(crate) use line::LineFault;
+pub(crate) use per_cell::Layout;
 pub(crate) use plane::PlaneFault;
 pub(crate) use record::FaultRun;
 pub(crate) use seas::SeasFiles;

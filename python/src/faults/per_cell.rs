@@ -8,14 +8,14 @@ use crate::errors::{Bare, argument};
 
 /// The cells of a fault: their number, and those of a plane down dip and along strike.
 #[derive(Clone, Copy)]
-pub(super) struct Layout {
-    pub(super) count: usize,
-    pub(super) shape: Option<[usize; 2]>,
+pub(crate) struct Layout {
+    pub(crate) count: usize,
+    pub(crate) shape: Option<[usize; 2]>,
 }
 
 impl Layout {
     /// Values per cell in the order of cells, of an array of the fault's shape; others as they are.
-    pub(super) fn flat(&self, values: PerVertex) -> PerVertex {
+    pub(crate) fn flat(&self, values: PerVertex) -> PerVertex {
         match (values, self.shape) {
             (PerVertex::Shaped(values, shape), Some(own)) if shape == own => {
                 PerVertex::Each(values)

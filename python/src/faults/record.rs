@@ -4,10 +4,10 @@
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use stickslip::Snapshot;
 use stickslip::record::Event;
 
 use super::events::table;
+use super::samples::Record;
 use crate::plain::{Reduced, fields, helper, ranges, reduced};
 
 /// The history of a fault: samples by row, cells by column, the initial values first. Slip rates, slip and shear stresses
@@ -24,58 +24,22 @@ pub(crate) struct FaultRun {
     theta: Py<PyArray2<f64>>,
     /// Shear stresses [Pa].
     shear_stress: Py<PyArrayDyn<f64>>,
-    /// Normal stresses [Pa].
+    /// Normal stresses [Pa], with fields the total ones.
     normal_stress: Py<PyArray2<f64>>,
+    /// Pore pressures of the fields [Pa]; 0 without any.
+    pore_pressure: Py<PyArray2<f64>>,
+    /// Normal stresses that friction sees [Pa], less the pore pressure.
+    effective_normal_stress: Py<PyArray2<f64>>,
+    /// Arrays of what fields show per cell, by name, such as "temperature" [K] or "darcy_velocity" [m/s].
+    readings: Py<PyDict>,
+    /// Arrays over time of what fields show as a whole, by name, such as "injected_volume"; those of one name are added.
+    totals: Py<PyDict>,
     /// Events, a structured array with `to_frame()`: onset, arrest [s], origin, hypocentre [m], peak_slip_rate [m/s], cells,
-    /// area, mean_slip, largest_slip [m], moment, stress_drop [Pa]. One under way at the end has nan as its arrest.
+    /// area, mean_slip, largest_slip [m], moment, stress_drop, pressure_change [Pa]. One under way at the end has nan as its
+    /// arrest.
     events: Py<PyAny>,
     /// The number of accepted steps.
     steps: usize,
-}
-
-/// Samples of a run of a fault with so many cells.
-pub(super) struct Record {
-    cells: usize,
-    times: Vec<f64>,
-    /// V, slip and shear stress, of as many components as slip.
-    vectors: [Vec<f64>; 3],
-    /// theta and normal stress.
-    scalars: [Vec<f64>; 2],
-    components: usize,
-}
-
-impl Record {
-    /// No samples yet of a fault.
-    pub(super) fn of<const C: usize>(fault: &Snapshot<'_, C>) -> Self {
-        Self {
-            cells: fault.contact(0).len(),
-            times: Vec::new(),
-            vectors: Default::default(),
-            scalars: Default::default(),
-            components: C,
-        }
-    }
-
-    /// Sets the times of the samples to those asked for, which clocks meet to rounding.
-    pub(super) fn at(&mut self, times: &[f64]) {
-        let count = self.times.len();
-        self.times.copy_from_slice(&times[..count]);
-    }
-
-    /// Appends a sample.
-    pub(super) fn add<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
-        self.times.push(at.time);
-        let contact = at.contact(0);
-        let [v, slip, shear] = &mut self.vectors;
-        let [theta, normal] = &mut self.scalars;
-        for k in 0..contact.len() {
-            v.extend(&at.velocity[k]);
-            slip.extend(&at.displacement[k]);
-            shear.extend(&contact.traction(k));
-            theta.push(contact.state(k).exp());
-            normal.push(contact.normal_stress(k));
-        }
-    }
 }
 
 impl FaultRun {
@@ -94,31 +58,53 @@ impl FaultRun {
             let array = field.into_pyarray(py).reshape(shape.clone());
             array.map(Bound::unbind)
         });
-        let [theta, normal_stress] = record.scalars.map(|field| {
+        let per_cell = |field: Vec<f64>| {
             let array = field.into_pyarray(py).reshape([samples, cells]);
             array.map(Bound::unbind)
-        });
+        };
+        let [theta, normal_stress] = record.scalars.map(per_cell);
+        let normal_stress = normal_stress?;
+        let [pore_pressure, effective_normal_stress] = match record.pressures {
+            Some(pressures) => pressures.map(per_cell),
+            None => [
+                Ok(PyArray2::zeros(py, [samples, cells], false).unbind()),
+                Ok(normal_stress.clone_ref(py)),
+            ],
+        };
+        let (readings, totals) = (PyDict::new(py), PyDict::new(py));
+        for (name, values) in record.readings {
+            readings.set_item(name, per_cell(values)?)?;
+        }
+        for (name, values) in record.totals {
+            totals.set_item(name, values.into_pyarray(py))?;
+        }
         Ok(Self {
             t: record.times.into_pyarray(py).unbind(),
             V: V?,
             slip: slip?,
             theta: theta?,
             shear_stress: shear_stress?,
-            normal_stress: normal_stress?,
+            normal_stress,
+            pore_pressure: pore_pressure?,
+            effective_normal_stress: effective_normal_stress?,
+            readings: readings.unbind(),
+            totals: totals.unbind(),
             events: table(py, events)?.unbind(),
             steps,
         })
     }
 
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        Ok(fields!(py, self; t, V, slip, theta, shear_stress, normal_stress, events, steps))
+        Ok(
+            fields!(py, self; t, V, slip, theta, shear_stress, normal_stress, pore_pressure, effective_normal_stress, readings, totals, events, steps),
+        )
     }
 }
 
 #[pymethods]
 impl FaultRun {
     #[new]
-    #[pyo3(signature = (*, t, V, slip, theta, shear_stress, normal_stress, events, steps))]
+    #[pyo3(signature = (*, t, V, slip, theta, shear_stress, normal_stress, pore_pressure, effective_normal_stress, readings, totals, events, steps))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         t: Py<PyArray1<f64>>,
@@ -127,6 +113,10 @@ impl FaultRun {
         theta: Py<PyArray2<f64>>,
         shear_stress: Py<PyArrayDyn<f64>>,
         normal_stress: Py<PyArray2<f64>>,
+        pore_pressure: Py<PyArray2<f64>>,
+        effective_normal_stress: Py<PyArray2<f64>>,
+        readings: Py<PyDict>,
+        totals: Py<PyDict>,
         events: Py<PyAny>,
         steps: usize,
     ) -> Self {
@@ -137,13 +127,17 @@ impl FaultRun {
             theta,
             shear_stress,
             normal_stress,
+            pore_pressure,
+            effective_normal_stress,
+            readings,
+            totals,
             events,
             steps,
         }
     }
 
-    /// A table of pandas with a row per sample and cell: t, cell, V, slip, theta, shear_stress, normal_stress; with a free
-    /// rake the components end in _strike and _dip.
+    /// A table of pandas with a row per sample and cell: t, cell, V, slip, theta, shear_stress, normal_stress; with
+    /// fields pore_pressure, effective_normal_stress and their readings. With a free rake components end in _strike and _dip.
     ///
     /// Args:
     ///     cells: the numbers of some cells, or of one; by default all.

@@ -13,10 +13,11 @@ use super::function::CellFunction;
 use super::geometry::{Built, Geometry, dipping, line, plane, system};
 use super::laws::Given;
 use super::loading::{Directed, Loading};
-use super::per_cell::Layout;
+use crate::arguments::positive;
 use crate::bodies::PerVertex;
-use crate::errors;
+use crate::errors::{self, argument};
 use crate::exit::Call;
+use crate::fields::{AnyField, Cells, Fields};
 use crate::raised::Raised;
 
 /// The arguments of a simulation.
@@ -29,6 +30,8 @@ pub(super) struct Arguments<'py> {
     pub(super) alpha: Option<PerVertex>,
     pub(super) allow_opening: bool,
     pub(super) pressure: Option<Py<PyAny>>,
+    pub(super) fields: Vec<AnyField>,
+    pub(super) least_normal_stress: Option<f64>,
 }
 
 /// A simulation of a fault in rock of this shear modulus \[Pa\].
@@ -38,7 +41,7 @@ pub(super) fn simulation(
     given: Arguments<'_>,
 ) -> PyResult<FaultSimulation> {
     let raised = Raised::default();
-    let at = (py, &raised, geometry.layout());
+    let at = (py, &raised, geometry.cells());
     let motion = match geometry {
         Geometry::Line(fault) => Motion::One(built(at, given, |l, f| line(fault, l, f))?, None),
         Geometry::Dipping(fault) => {
@@ -62,11 +65,12 @@ pub(super) fn simulation(
 
 /// The motion of so many cells, built without the interpreter's lock.
 fn built<const C: usize>(
-    (py, raised, layout): (Python<'_>, &Raised, Layout),
+    (py, raised, fault): (Python<'_>, &Raised, Cells),
     given: Arguments<'_>,
     build: impl FnOnce(Loading<C>, CellFriction<C>) -> Built<C> + Send,
 ) -> PyResult<Box<dyn Stepper<C>>> {
     let call = Call::begin()?;
+    let layout = fault.layout;
     let (cells, flat) = (layout.count, |values| layout.flat(values));
     let any = |name: &str, values: PerVertex| values.checked(name, cells, "finite", f64::is_finite);
     let laws = given.laws.flat(layout);
@@ -77,6 +81,12 @@ fn built<const C: usize>(
     let norm = |stress: &SVector<f64, C>| stress.norm();
     let stresses: Option<Vec<f64>> =
         (!loading.has_rates()).then(|| shear_stress.iter().map(norm).collect());
+    let least = given.least_normal_stress;
+    if let (Some(stress), true) = (least, given.allow_opening) {
+        let requirement = "None with allow_opening, which takes 0";
+        return Err(argument("least_normal_stress", requirement, stress));
+    }
+    let least = least.map(|stress| positive("least_normal_stress", stress));
     let friction = CellFriction {
         laws,
         effect,
@@ -85,6 +95,8 @@ fn built<const C: usize>(
         shear_stress,
         opens: given.allow_opening,
         pressure: CellFunction::given(py, "pressure", given.pressure, layout, raised)?,
+        fields: Fields::on(&given.fields, &fault)?,
+        least_stress: least.transpose()?,
     };
     let stepper = call.detach(py, || build(loading, friction));
     if let Some(error) = raised.take() {

@@ -16,6 +16,7 @@ use super::scene::{Arguments, simulation};
 use crate::arguments::named;
 use crate::bodies::PerVertex;
 use crate::errors::{self, Bare, argument};
+use crate::fields::AnyField;
 use crate::plain::{Reduced, html, reduced, text};
 use crate::view::into_rows;
 
@@ -128,8 +129,9 @@ impl FaultSystem {
     #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
                         V0=PerVertex::Uniform(1e-6), plate_rate=None,
-                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None, alpha=None),
-           text_signature = "($self, *, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None, alpha=None)")]
+                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None, alpha=None,
+                        fields=Vec::new(), least_normal_stress=None),
+           text_signature = "($self, *, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None, alpha=None, fields=[], least_normal_stress=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -153,6 +155,8 @@ impl FaultSystem {
         pressure: Option<Py<PyAny>>,
         overstress: Option<Py<PyAny>>,
         #[pyo3(from_py_with = named)] alpha: Option<PerVertex>,
+        #[pyo3(from_py_with = named)] fields: Vec<AnyField>,
+        #[pyo3(from_py_with = named)] least_normal_stress: Option<f64>,
     ) -> PyResult<FaultSimulation> {
         let arguments = Arguments {
             laws: Given {
@@ -174,6 +178,8 @@ impl FaultSystem {
             alpha,
             allow_opening,
             pressure,
+            fields,
+            least_normal_stress,
         };
         simulation(py, (&self.geometry, self.shear_modulus), arguments)
     }
