@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use stickslip::fem::{GridDiagonal, Mesh, P1, Trace, Viscous, body_force, elasticity, viscosity};
 use stickslip::fields::GivenPressure;
-use stickslip::friction::{ForcedRupture, FrictionLaw, LinearWeakening, Tresca};
+use stickslip::friction::{ForcedCap, ForcedRupture, FrictionLaw, LinearWeakening, Tresca};
 use stickslip::solvers::Cholesky;
 use stickslip::state::{Dieterich, LogTheta, SlipWeakening, Weakening};
 use stickslip::{Components, Contact, NormalStress, NormalStressChange, Scene};
@@ -122,7 +122,7 @@ const fn refused(
     }
 }
 
-pub(super) const CASES: [Case; 36] = [
+pub(super) const CASES: [Case; 37] = [
     used("with_contact", |s| {
         let wall = Contact::new(&right(s)?, Tresca { coefficient: 0.3 }, 1e2);
         Ok([body(s)?, body(s)?.with_contact(wall)])
@@ -275,6 +275,18 @@ pub(super) const CASES: [Case; 36] = [
         Ok([
             dynamic(s)?.with_contact(weakens()?),
             dynamic(s)?.with_contact(weakens()?.with_forced_rupture(forced)),
+        ])
+    }),
+    used("with_friction_cap", |s| {
+        let cap = ForcedCap {
+            rupture_time: 0.0,
+            duration: 0.2,
+            static_friction: 0.5,
+            dynamic_friction: 0.01,
+        };
+        Ok([
+            dynamic(s)?.with_contact(contact(s)?),
+            dynamic(s)?.with_contact(contact(s)?.with_friction_cap(cap)),
         ])
     }),
     used("with_normal_stress_history", |s| {
