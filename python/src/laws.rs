@@ -2,7 +2,9 @@
 
 use pyo3::prelude::*;
 use stickslip::friction::{DieterichRuina, FrictionLaw, RegularizedDieterichRuina};
-use stickslip::state::{Dieterich, KatoTullis, LogTheta, Nagata, PerrinRiceZheng, Ruina, StateLaw};
+use stickslip::state::{
+    Dieterich, KatoTullis, LogTheta, Nagata, PerrinRiceZheng, Ruina, Sato, StateLaw,
+};
 
 use crate::arguments::{non_negative, positive};
 use crate::errors::{self, argument};
@@ -31,6 +33,8 @@ pub(crate) enum Evolution {
     PerrinRiceZheng(PerrinRiceZheng),
     /// That of Kato and Tullis.
     KatoTullis(KatoTullis),
+    /// That of Sato, Nakatani and Ando.
+    Sato(Sato),
     /// That of Nagata and others; friction is that with its state.
     Nagata(Nagata),
     /// Of the user.
@@ -118,6 +122,7 @@ impl Evolution {
                 slip_distance,
                 aging_velocity: need("Vc", further.aging_velocity)?,
             })),
+            "sato" => Ok(Self::Sato(Sato::new(slip_distance))),
             "nagata" => {
                 positive("b", parameters.b)?;
                 let weight = need("c", further.stress_weight)?;
@@ -178,6 +183,7 @@ impl Evolution {
             Self::Slip(law) => Box::new(*law),
             Self::PerrinRiceZheng(law) => Box::new(*law),
             Self::KatoTullis(law) => Box::new(*law),
+            Self::Sato(law) => Box::new(*law),
             Self::Nagata(law) => Box::new(*law),
             Self::Own(law) => Box::new(law.reporting_to(raised)),
         }
@@ -185,8 +191,7 @@ impl Evolution {
 }
 
 /// The names of state laws.
-const LAWS: &str =
-    "\"aging\", \"slip\", \"perrin-rice-zheng\", \"kato-tullis\", \"nagata\" or a law of your own";
+const LAWS: &str = "\"aging\", \"slip\", \"perrin-rice-zheng\", \"kato-tullis\", \"sato\", \"nagata\" or a law of your own";
 
 /// Parameters of some state laws only.
 #[derive(Clone, Copy, Default)]

@@ -39,7 +39,8 @@ use crate::slider_run::{Samples, SliderRun};
 ///         potential(V, theta), its derivative and its integral in V. Their contract is checked at once. Methods of Python
 ///         take about a microsecond a call: hundreds of times as long as compiled functions.
 ///     law: "aging", theta' = 1 - V theta/Dc, or "slip", theta' = -(V theta/Dc) ln(V theta/Dc), or "perrin-rice-zheng",
-///         theta' = 1 - (V theta/2 Dc)^2 and 2 Dc in friction, or "kato-tullis", theta' = exp(-V/Vc) - (V theta/Dc) ln(V theta/Dc), or "nagata",
+///         theta' = 1 - (V theta/2 Dc)^2 and 2 Dc in friction, or "kato-tullis", theta' = exp(-V/Vc) - (V theta/Dc) ln(V theta/Dc), or "sato",
+///         theta' = exp(-W/0.01) - W ln W with W = V theta/Dc, or "nagata",
 ///         theta' = 1 - V theta/Dc - (c/b) theta mu', with friction "cut-off"; or a law of your own: a CompiledState, or an
 ///         object with the methods rate(theta, V) and slope(theta, V), its derivative in theta.
 ///     damping: [Pa s/m], such as radiation damping G/(2 cs).

@@ -119,7 +119,7 @@ def test_stress_has_the_sign_of_slip() -> None:
 
 @pytest.mark.parametrize(
     ("law", "further", "steady"),
-    [("perrin-rice-zheng", {}, 2.0), ("kato-tullis", {"Vc": 1e-8}, 1.0), ("nagata", {"c": 2.0}, 1.0)],
+    [("perrin-rice-zheng", {}, 2.0), ("kato-tullis", {"Vc": 1e-8}, 1.0), ("sato", {}, 1.0), ("nagata", {"c": 2.0}, 1.0)],
 )
 def test_laws_by_name_end_in_their_steady_state(law: str, further: dict[str, float], steady: float) -> None:
     run = slider(law=law, **further).run(300.0)
