@@ -71,6 +71,14 @@ pub struct ContactState<const C: usize> {
     pub excess_pressure: Vec<f64>,
 }
 
+impl<const C: usize> ContactState<C> {
+    /// The normal stress of a vertex, with the part that the fluid bears \[Pa\].
+    pub(crate) fn total_normal_stress(&self, k: usize) -> f64 {
+        let of = |field: &[f64]| field.get(k).copied().unwrap_or_default();
+        self.normal_stress[k] + of(&self.pore_pressure) - of(&self.excess_pressure)
+    }
+}
+
 /// The memory of a run with adaptive steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

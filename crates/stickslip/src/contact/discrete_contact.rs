@@ -118,11 +118,11 @@ impl<const C: usize> DiscreteContact<C> {
         let fields = Fields::new(&strength.fields, count)?;
         let delays = strength.relaxation.delays();
         let opens = body.is_some() && strength.opens;
-        if fields.is_some() && (delays || opens || !bilateral) {
+        if fields.is_some() && (delays || opens) {
             return Err(SceneError::unsupported(
                 "Contact::with_field",
-                "fixed normal velocities and a normal stress without delay: neither Contact::with_free_normal, nor \
-                 NormalStress::from_body with Contact::allow_opening or NormalStress::with_relaxation_time",
+                "a normal stress without delay, and sides that stay together under one from the body: neither \
+                 NormalStress::with_relaxation_time, nor NormalStress::from_body with Contact::allow_opening",
             ));
         }
         let normal_stress: Vec<f64> = (0..count)

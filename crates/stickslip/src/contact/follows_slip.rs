@@ -8,9 +8,9 @@ use crate::scene::Clamping;
 use crate::{SceneError, StepError, StepState};
 
 impl<const C: usize> DiscreteContact<C> {
-    /// Makes each step find the normal stress with the displacement of its end.
-    pub(crate) fn follow_displacement(&mut self) -> Result<(), SceneError> {
-        if !self.bilateral || self.body.is_some() {
+    /// Makes each step find the normal stress with the displacement of its end, which changes it, or with fields.
+    fn follow_displacement(&mut self, changes: bool) -> Result<(), SceneError> {
+        if self.body.is_some() || changes && !self.bilateral {
             return Err(SceneError::unsupported(
                 SceneError::IMPLICIT,
                 "Scene::with_normal_stress_change with fixed normal velocities and given normal stresses: neither \
@@ -68,7 +68,7 @@ impl<const C: usize> ContactSet<C> {
         let mut following = contacts
             .by_ref()
             .filter(|own| all || own.fields.is_some() && own.body.is_none());
-        following.try_for_each(DiscreteContact::follow_displacement)
+        following.try_for_each(|contact| contact.follow_displacement(all))
     }
 
     /// Starts from the normal stresses of a state, where they come from the deformation, with the given ones of a time.

@@ -129,7 +129,7 @@ impl<const C: usize> ContactSet<C> {
     /// vertices that can open.
     pub(crate) fn add_loads_of(&self, states: &[ContactState<C>], load: &mut [SVector<f64, C>]) {
         for (contact, state) in self.contacts.iter().zip(states) {
-            contact.add_tractions(&state.normal_stress, true, load);
+            contact.add_tractions(|k| state.total_normal_stress(k), true, load);
             let Some(body) = &contact.body else {
                 continue;
             };

@@ -174,7 +174,7 @@ impl<const C: usize> ContactSet<C> {
     /// Adds the tractions of contacts beside friction, with the normal stresses in force.
     pub(crate) fn add_tractions(&self, load: &mut [SVector<f64, C>]) {
         for contact in &self.contacts {
-            contact.add_tractions(&contact.normal_stress, true, load);
+            contact.add_tractions(|k| contact.total_normal_stress(k), true, load);
         }
     }
 
@@ -197,7 +197,7 @@ impl<const C: usize> ContactSet<C> {
         load: &mut [SVector<f64, C>],
     ) {
         for (contact, state) in self.contacts.iter().zip(states) {
-            contact.add_tractions(&state.normal_stress, true, load);
+            contact.add_tractions(|k| state.total_normal_stress(k), true, load);
             contact.add_reactions(&state.normal_stress, load);
         }
     }

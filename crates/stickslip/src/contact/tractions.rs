@@ -10,11 +10,17 @@ impl<const C: usize> DiscreteContact<C> {
         !self.bilateral || self.strength.shear.is_some() || self.opening.is_some()
     }
 
-    /// Adds the tractions beside friction: a prescribed normal traction by a normal stress \[Pa\], and the initial
-    /// shear stress.
+    /// The normal stress in force at vertex number `k`, with the part that the fluid bears \[Pa\].
+    pub(crate) fn total_normal_stress(&self, k: usize) -> f64 {
+        let fluid = (self.fields.as_ref()).map_or(0.0, |own| own.pressure[k] - own.excess[k]);
+        self.normal_stress[k] + fluid
+    }
+
+    /// Adds the tractions beside friction: a prescribed normal traction by the total normal stress of a vertex \[Pa\],
+    /// and the initial shear stress.
     pub(crate) fn add_tractions(
         &self,
-        normal_stress: &[f64],
+        normal_stress: impl Fn(usize) -> f64,
         with_shear: bool,
         load: &mut [SVector<f64, C>],
     ) {
@@ -30,7 +36,7 @@ impl<const C: usize> DiscreteContact<C> {
                 load[vertex] += self.tangential(k, shear.at(k)) * *weight;
             }
             if !self.bilateral {
-                load[vertex] -= self.outward[k] * (weight * normal_stress[k]);
+                load[vertex] -= self.outward[k] * (weight * normal_stress(k));
             }
         }
     }

@@ -21,7 +21,7 @@ pub(crate) fn equilibrium<const C: usize>(
     let mut load = vec![SVector::zeros(); size];
     loads.fill(time, &mut load, &mut loads.scratch(size));
     for contact in &contacts.contacts {
-        contact.add_tractions(&contact.normal_stress, false, &mut load);
+        contact.add_tractions(|k| contact.total_normal_stress(k), false, &mut load);
     }
     crate::scene::check_field("load", &load, size)?;
     let mut solve = |fixed: &[[bool; C]]| {

@@ -9,8 +9,7 @@ impl<const C: usize> ContactView<'_, C> {
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
     pub fn normal_stress(&self, k: usize) -> f64 {
-        let excess = self.at.excess_pressure.get(k).copied().unwrap_or_default();
-        self.effective_normal_stress(k) + self.pore_pressure(k) - excess
+        self.at.total_normal_stress(k)
     }
 
     /// The normal stress of vertex number `k` as friction sees it, less the pore pressure \[Pa\]; 0 where it is open, and at
