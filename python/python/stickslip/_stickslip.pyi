@@ -939,6 +939,7 @@ class Body:
         law: str | AnyState = "aging",
         cohesion: float = 0.0,
         allow_opening: bool = False,
+        fields: Sequence[AnyField] = [],
     ) -> None: ...
     def coulomb(
         self,
@@ -949,6 +950,7 @@ class Body:
         opposite: Part | None = None,
         cohesion: float = 0.0,
         allow_opening: bool = False,
+        fields: Sequence[AnyField] = [],
     ) -> None: ...
     def simulation(
         self,
@@ -1028,6 +1030,9 @@ class ContactState:
         slip_rate: Array,
         theta: Array | None,
         normal_stress: Array,
+        pore_pressure: Array,
+        effective_normal_stress: Array,
+        readings: dict[str, Array],
         opening: Array,
         mu: Array,
         shear_stress: Array,
@@ -1042,6 +1047,12 @@ class ContactState:
     def theta(self) -> Array | None: ...
     @property
     def normal_stress(self) -> Array: ...
+    @property
+    def pore_pressure(self) -> Array: ...
+    @property
+    def effective_normal_stress(self) -> Array: ...
+    @property
+    def readings(self) -> dict[str, Array]: ...
     @property
     def opening(self) -> Array: ...
     @property

@@ -6,7 +6,7 @@ use stickslip::fem::{Elastic, antiplane, elasticity};
 use stickslip::{FixedPoint, Monolithic, StateUpdate};
 
 use super::condition::{Condition, Velocity};
-use super::friction::{Contact, Laws, PerVertex, Pressure};
+use super::friction::{Contact, Laws, More, PerVertex, Pressure};
 use super::mesh::{AnySpace, Mesh};
 use super::part::{AnyTrace, Part};
 use super::reduced::Modes;
@@ -15,6 +15,7 @@ use super::start::{Start, scheme_of};
 use crate::arguments::{named, non_negative, positive};
 use crate::errors::{self, argument};
 use crate::exit::Call;
+use crate::fields::{AnyField, Cells, Fields};
 use crate::laws::{Evolution, Friction, Further, given, parameters};
 use crate::memory::{REDUCED_PAIR, check_memory};
 use crate::raised::Raised;
@@ -138,9 +139,10 @@ impl Body {
     ///     cohesion: [Pa], >= 0.
     ///     allow_opening: under tension the strength is the cohesion, and sides under the normal stress of the body part;
     ///         else tension is an error.
+    ///     fields: ThermalPressurization or ShearHeating of its vertices.
     #[pyo3(signature = (part, *, normal_stress, a=None, b=None, Dc=None, mu0=0.6, V0=1e-6, theta, opposite=None,
-                        friction=None, law=None, cohesion=0.0, allow_opening=false),
-           text_signature = "($self, part, *, normal_stress, a=None, b=None, Dc=None, mu0=0.6, V0=1e-06, theta, opposite=None, friction='cut-off', law='aging', cohesion=0.0, allow_opening=False)")]
+                        friction=None, law=None, cohesion=0.0, allow_opening=false, fields=Vec::new()),
+           text_signature = "($self, part, *, normal_stress, a=None, b=None, Dc=None, mu0=0.6, V0=1e-06, theta, opposite=None, friction='cut-off', law='aging', cohesion=0.0, allow_opening=False, fields=[])")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn contact(
@@ -158,6 +160,7 @@ impl Body {
         law: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = named)] cohesion: f64,
         #[pyo3(from_py_with = named)] allow_opening: bool,
+        #[pyo3(from_py_with = named)] fields: Vec<AnyField>,
     ) -> PyResult<()> {
         let _call = Call::begin()?;
         let parameters = || {
@@ -181,7 +184,7 @@ impl Body {
             (part.get(), opposite.as_ref().map(Bound::get)),
             laws,
             normal_stress,
-            (cohesion, allow_opening),
+            (cohesion, allow_opening, &fields),
         )
     }
 
@@ -189,7 +192,10 @@ impl Body {
     ///
     /// Args:
     ///     coefficient: of friction, >= 0.
-    #[pyo3(signature = (part, *, normal_stress, coefficient, opposite=None, cohesion=0.0, allow_opening=false))]
+    #[pyo3(signature = (part, *, normal_stress, coefficient, opposite=None, cohesion=0.0, allow_opening=false,
+                        fields=Vec::new()),
+           text_signature = "($self, part, *, normal_stress, coefficient, opposite=None, cohesion=0.0, allow_opening=False, fields=[])")]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn coulomb(
         &mut self,
         #[pyo3(from_py_with = named)] part: Bound<'_, Part>,
@@ -198,13 +204,14 @@ impl Body {
         #[pyo3(from_py_with = named)] opposite: Option<Bound<'_, Part>>,
         #[pyo3(from_py_with = named)] cohesion: f64,
         #[pyo3(from_py_with = named)] allow_opening: bool,
+        #[pyo3(from_py_with = named)] fields: Vec<AnyField>,
     ) -> PyResult<()> {
         let laws = Laws::Coulomb(non_negative("coefficient", coefficient)?);
         self.add(
             (part.get(), opposite.as_ref().map(Bound::get)),
             laws,
             normal_stress,
-            (cohesion, allow_opening),
+            (cohesion, allow_opening, &fields),
         )
     }
 
@@ -362,20 +369,22 @@ impl Body {
         (part, opposite): (&Part, Option<&Part>),
         laws: Laws,
         normal_stress: Pressure,
-        (cohesion, opens): (f64, bool),
+        (cohesion, opens, fields): (f64, bool, &[AnyField]),
     ) -> PyResult<()> {
         self.check(part, "part")?;
         if let Some(opposite) = opposite {
             self.check(opposite, "opposite")?;
         }
         let cohesion = non_negative("cohesion", cohesion)?;
-        let stress = normal_stress.stress(part.count())?;
-        self.contacts.push(Contact::new(
-            (part, opposite),
-            laws,
-            stress,
-            (cohesion, opens),
-        ));
+        let count = part.count();
+        let stress = normal_stress.stress(count)?;
+        let more = More {
+            cohesion,
+            opens,
+            fields: Fields::on(fields, &Cells::apart("a contact of a body", count))?,
+        };
+        let parts = (part, opposite);
+        self.contacts.push(Contact::new(parts, laws, stress, more));
         Ok(())
     }
 }

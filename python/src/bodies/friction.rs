@@ -14,6 +14,7 @@ use super::condition::boundary;
 use super::part::Part;
 use crate::arguments::wrong_type;
 use crate::errors::{Bare, argument};
+use crate::fields::Fields;
 use crate::laws::{Evolution, Friction};
 use crate::raised::Raised;
 
@@ -163,8 +164,17 @@ pub(super) struct Contact {
     opposite: Option<BoundaryPart>,
     laws: Laws,
     normal_stress: NormalStress,
-    cohesion: f64,
-    opens: bool,
+    more: More,
+}
+
+/// What a contact may have beside friction.
+pub(super) struct More {
+    /// \[Pa\].
+    pub(super) cohesion: f64,
+    /// Whether it opens under tension.
+    pub(super) opens: bool,
+    /// The heat of its vertices.
+    pub(super) fields: Fields,
 }
 
 impl Contact {
@@ -172,7 +182,7 @@ impl Contact {
         (part, opposite): (&Part, Option<&Part>),
         laws: Laws,
         normal_stress: NormalStress,
-        (cohesion, opens): (f64, bool),
+        more: More,
     ) -> Self {
         Self {
             part: boundary(part),
@@ -180,8 +190,7 @@ impl Contact {
             opposite: opposite.map(boundary),
             laws,
             normal_stress,
-            cohesion,
-            opens,
+            more,
         }
     }
 
@@ -192,13 +201,16 @@ impl Contact {
         raised: &Raised,
     ) -> Scene<BlockMatrix<C>, C> {
         match &self.laws {
-            &Laws::Coulomb(coefficient) => scene.with_contact(self.contact(Tresca { coefficient })),
+            &Laws::Coulomb(coefficient) => {
+                let contact = self.contact(Tresca { coefficient });
+                scene.with_contact(self.more.fields.clone().in_contact(contact))
+            }
             Laws::RateAndState(friction, evolution, theta) => {
                 let states = theta.iter().map(|&theta| LogTheta::from(Theta(theta)));
                 let contact = self.contact(friction.law(raised));
-                scene.with_contact(
-                    contact.with_state(evolution.law(raised), states.collect::<Vec<_>>()),
-                )
+                let states = states.collect::<Vec<_>>();
+                let contact = contact.with_state(evolution.law(raised), states);
+                scene.with_contact(self.more.fields.clone().in_contact(contact))
             }
         }
     }
@@ -209,8 +221,8 @@ impl Contact {
             Some(minus) => SceneContact::between(part, minus.clone(), law, stress),
             None => SceneContact::new(part, law, stress),
         };
-        let contact = contact.with_cohesion(self.cohesion);
-        if self.opens {
+        let contact = contact.with_cohesion(self.more.cohesion);
+        if self.more.opens {
             contact.allow_opening()
         } else {
             contact

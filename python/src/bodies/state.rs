@@ -1,6 +1,6 @@
 //! The state of a body at one time.
 
-use numpy::{PyArray1, PyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stickslip::{ContactView, Snapshot};
@@ -36,8 +36,14 @@ pub(crate) struct ContactState {
     slip_rate: Py<PyArray1<f64>>,
     /// State [s]; None without a state law.
     theta: Option<Py<PyArray1<f64>>>,
-    /// Normal stress [Pa], positive in compression.
+    /// Normal stress [Pa], positive in compression; with fields the total one.
     normal_stress: Py<PyArray1<f64>>,
+    /// Pore pressure of the fields [Pa]; 0 without any.
+    pore_pressure: Py<PyArray1<f64>>,
+    /// Normal stress that friction sees [Pa], less the pore pressure.
+    effective_normal_stress: Py<PyArray1<f64>>,
+    /// Arrays of what fields show, by name, such as "temperature" [K].
+    readings: Py<PyDict>,
     /// Distance of both sides [m], where the contact is open.
     opening: Py<PyArray1<f64>>,
     /// Coefficient of friction.
@@ -50,7 +56,8 @@ pub(crate) struct ContactState {
 #[pymethods]
 impl ContactState {
     #[new]
-    #[pyo3(signature = (*, vertices, slip, slip_rate, theta, normal_stress, opening, mu, shear_stress))]
+    #[pyo3(signature = (*, vertices, slip, slip_rate, theta, normal_stress, pore_pressure, effective_normal_stress, readings, opening,
+                        mu, shear_stress))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         vertices: Py<PyArray1<usize>>,
@@ -58,6 +65,9 @@ impl ContactState {
         slip_rate: Py<PyArray1<f64>>,
         theta: Option<Py<PyArray1<f64>>>,
         normal_stress: Py<PyArray1<f64>>,
+        pore_pressure: Py<PyArray1<f64>>,
+        effective_normal_stress: Py<PyArray1<f64>>,
+        readings: Py<PyDict>,
         opening: Py<PyArray1<f64>>,
         mu: Py<PyArray1<f64>>,
         shear_stress: Py<PyArray2<f64>>,
@@ -68,16 +78,26 @@ impl ContactState {
             slip_rate,
             theta,
             normal_stress,
+            pore_pressure,
+            effective_normal_stress,
+            readings,
             opening,
             mu,
             shear_stress,
         }
     }
 
-    /// A table of pandas with a row per vertex.
+    /// A table of pandas with a row per vertex; with fields it has their pressures and readings, too.
     fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let columns = self.fields(py)?;
         columns.del_item("shear_stress")?;
+        columns.del_item("readings")?;
+        if self.readings.bind(py).is_empty() {
+            columns.del_item("pore_pressure")?;
+            columns.del_item("effective_normal_stress")?;
+        } else {
+            columns.update(self.readings.bind(py).as_mapping())?;
+        }
         if self.theta.is_none() {
             columns.del_item("theta")?;
         }
@@ -101,7 +121,8 @@ impl ContactState {
 impl ContactState {
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         Ok(
-            fields!(py, self; vertices, slip, slip_rate, theta, normal_stress, opening, mu, shear_stress),
+            fields!(py, self; vertices, slip, slip_rate, theta, normal_stress, pore_pressure, effective_normal_stress, readings,
+                              opening, mu, shear_stress),
         )
     }
 }
@@ -203,6 +224,11 @@ impl ContactState {
             Some(whole) => whole.vertex(contact.vertex(k)),
             None => contact.vertex(k),
         };
+        let readings = PyDict::new(py);
+        for reading in contact.readings() {
+            let values = contact.reading(reading.name).unwrap_or_default();
+            readings.set_item(reading.name, values.into_pyarray(py))?;
+        }
         let tractions = (0..count).map(|k| contact.traction(k)).collect();
         Ok(Self {
             vertices: PyArray1::from_iter(py, (0..count).map(vertex)).unbind(),
@@ -212,6 +238,9 @@ impl ContactState {
                 .has_state()
                 .then(|| array(&|k| contact.state(k).exp())),
             normal_stress: array(&|k| contact.normal_stress(k)),
+            pore_pressure: array(&|k| contact.pore_pressure(k)),
+            effective_normal_stress: array(&|k| contact.effective_normal_stress(k)),
+            readings: readings.unbind(),
             opening: array(&|k| contact.opening(k)),
             mu: array(&|k| contact.coefficient(k)),
             shear_stress: into_rows(py, tractions)?.unbind(),

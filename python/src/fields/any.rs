@@ -36,6 +36,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for AnyField {
 }
 
 /// A field on the cells of a fault.
+#[derive(Clone)]
 enum Field {
     Thermal(Pressurization),
     Heating(Heating),
@@ -43,7 +44,8 @@ enum Field {
     OnPlanes(OnPlanes),
 }
 
-/// The fields on the cells of a fault.
+/// The fields on the cells of a fault, or at the vertices of a contact.
+#[derive(Clone)]
 pub(crate) struct Fields(Vec<Field>);
 
 impl Fields {

@@ -31,8 +31,9 @@ use crate::plain::{Reduced, fields, html, reduced, text};
 /// Further args:
 ///     wells: Wells.
 ///     sources: GaussianSources.
-///     sides: a dictionary of conditions: "begin" and "end" of a line or of a plane along strike, "top" and "bottom" down dip.
-///         A condition is "sealed", as sides are by default, ("pressure", [Pa]) or ("flux", into the fault [m/s]).
+///     sides: a dictionary of conditions: "begin" and "end" of a line, also a periodic one, or of a plane along strike, "top" and
+///         "bottom" down dip. A condition is "sealed", as sides are by default, ("pressure", [Pa]) or ("flux", into the fault
+///         [m/s]).
 ///     leak_off: LeakOff into the rock beside the fault.
 ///     dilatancy: Dilatancy, pores that open with the slip rate.
 ///     permeability_evolution: PermeabilityEvolution, which slip raises and time heals.

@@ -14,8 +14,8 @@ pub(crate) type Rectangles = ([[f64; 2]; 2], [usize; 2]);
 
 /// The cells of a fault.
 pub(crate) enum Ground {
-    /// The block of a slider.
-    Block,
+    /// Points along which no fluid flows, by what they are: those of a slider, or of a contact of a body.
+    Apart(&'static str),
     /// Equal cells of a line between two ends \[m\].
     Line([f64; 2], usize),
     /// Those of a plane.
@@ -31,14 +31,11 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// The block of a slider.
-    pub(crate) fn block() -> Self {
-        let layout = Layout {
-            count: 1,
-            shape: None,
-        };
+    /// So many points of what has this name.
+    pub(crate) fn apart(of: &'static str, count: usize) -> Self {
+        let layout = Layout { count, shape: None };
         Self {
-            ground: Ground::Block,
+            ground: Ground::Apart(of),
             layout,
         }
     }
@@ -86,14 +83,18 @@ impl Cells {
                 let plane = Plane::new(*ends, *counts);
                 Ok(plane.map_err(refused(name))?.into())
             }
-            Ground::Block | Ground::Planes(_) => {
-                let requirement = "ThermalPressurization or ShearHeating on a slider";
-                Err(argument(name, requirement, Bare("Diffusion".to_owned())))
-            }
+            Ground::Apart(of) => Err(refuse_fluid(name, of)),
+            Ground::Planes(_) => Err(refuse_fluid(name, "several planes")),
         }
     }
 
     pub(super) fn is_line(&self) -> bool {
         matches!(self.ground, Ground::Line(..))
     }
+}
+
+/// The exception of a fluid that nothing takes along.
+fn refuse_fluid(name: &str, of: &str) -> PyErr {
+    let requirement = format!("ThermalPressurization or ShearHeating on {of}");
+    argument(name, &requirement, Bare("Diffusion".to_owned()))
 }

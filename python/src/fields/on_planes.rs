@@ -11,6 +11,7 @@ pub(super) struct OnPlane {
 }
 
 /// Fluids along planes of one contact.
+#[derive(Clone)]
 pub(super) struct OnPlanes {
     parts: Vec<Part>,
     /// The number of cells of all planes.
@@ -20,6 +21,7 @@ pub(super) struct OnPlanes {
 }
 
 /// A fluid with its places in the memory and among the sources.
+#[derive(Clone)]
 struct Part {
     fluid: Diffusion,
     cells: Range<usize>,

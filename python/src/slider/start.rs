@@ -34,7 +34,7 @@ impl SpringSlider {
             None => steady_state(&evolution, self.slider.load.velocity(0.0))
                 .map_err(|error| raised.take().unwrap_or_else(|| errors::state(py, &error)))?,
         };
-        let fields = Fields::on(&self.fields, &Cells::block())?;
+        let fields = Fields::on(&self.fields, &Cells::apart("a slider", 1))?;
         let made = move || -> Result<Box<dyn Stepper<1>>, _> {
             let friction = self.laws.0.law(raised);
             let scene = if self.fields.is_empty() {

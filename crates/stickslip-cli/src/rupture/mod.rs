@@ -28,7 +28,7 @@ mod problem;
 mod report;
 mod run;
 
-pub use problem::{Law, NORMAL};
+pub use problem::Law;
 pub use report::report;
 pub use run::run;
 
@@ -50,6 +50,9 @@ pub struct Arguments {
     /// The law of the fault
     #[arg(long, value_enum, default_value_t = Law::Aging)]
     pub law: Law,
+    /// Heat that pressurizes the pore fluid, with the stresses of TPV105 (--law strong-weakening)
+    #[arg(long)]
+    pub thermal_pressurization: bool,
     /// The largest edge of cells at the fault [m]
     #[arg(long, value_name = "METRES", default_value_t = 40.0, value_parser = positive)]
     pub cell: f64,
@@ -83,6 +86,20 @@ impl Arguments {
     /// Whether the scheme is explicit.
     pub fn explicit(&self) -> bool {
         self.scheme == Scheme::Explicit
+    }
+
+    /// The fault.
+    ///
+    /// # Errors
+    /// Thermal pressurization beside the aging law.
+    pub fn fault(&self) -> Result<Law, Problem> {
+        match (self.law, self.thermal_pressurization) {
+            (law, false) => Ok(law),
+            (Law::Aging, true) => Err(
+                "--thermal-pressurization has the parameters of TPV105: use it with --law strong-weakening".into(),
+            ),
+            (_, true) => Ok(Law::Pressurized),
+        }
     }
 
     /// The times at which the run stops \[s\].
@@ -121,19 +138,30 @@ pub fn grow(time: f64, whole: &[Vector2<f64>], load: &mut [Vector2<f64>]) {
 }
 
 /// Takes the steps to the end, with a stop at each whole second, and records the stations: time, slip and slip rate
-/// across the fault, shear stress.
+/// across the fault, shear stress, pore pressure, temperature.
 ///
 /// # Errors
 /// The failure of the run.
 pub fn take(
     arguments: &Arguments,
     simulation: &mut Simulation<2>,
-) -> Result<Probes<2, 4>, Problem> {
+) -> Result<Probes<2, 6>, Problem> {
     let from = |x: &f64, point: [f64; 3]| (point[0] - x).abs();
     let mut stations = Probes::new(&simulation.snapshot(), STATIONS, from, |at, k| {
         let contact = at.contact(0);
         let (slip, rate) = (2.0 * contact.slip(k), 2.0 * contact.slip_rate(k));
-        [at.time, slip, rate, contact.traction(k)[0]]
+        let temperature = contact
+            .reading("temperature")
+            .map_or(f64::NAN, |all| all[k]);
+        let fluid = [contact.pore_pressure(k), temperature];
+        [
+            at.time,
+            slip,
+            rate,
+            contact.traction(k)[0],
+            fluid[0],
+            fluid[1],
+        ]
     });
     let dt = step(arguments, simulation).recip();
     let mut progress = Progress::default();

@@ -1,14 +1,13 @@
-//! The faults: TPV101, and TPV103 with strong rate weakening, in terms of half the slip.
+//! The faults: TPV101, TPV103 with strong rate weakening, and TPV105 with thermal pressurization, in terms of half the
+//! slip.
 
 use clap::ValueEnum;
 use stickslip::fem::Trace;
+use stickslip::fields::{PoreFluid, ShearZone, ThermalError, ThermalPressurization};
 use stickslip::friction::{RegularizedDieterichRuina, StrongRateWeakening};
 use stickslip::nalgebra::Vector2;
 use stickslip::state::{LogTheta, Psi};
 use stickslip::{Contact, Operator, Scene};
-
-/// Normal stress \[Pa\].
-pub const NORMAL: f64 = 120e6;
 
 /// The law of the fault, with its benchmark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -17,14 +16,26 @@ pub enum Law {
     Aging,
     /// Strong rate weakening by flash heating: TPV103, for cells of 40 m or less
     StrongWeakening,
+    /// The same with thermal pressurization: TPV105
+    #[value(skip)]
+    Pressurized,
 }
 
 impl Law {
+    /// Normal stress; under thermal pressurization less the initial pore pressure \[Pa\].
+    pub fn normal(self) -> f64 {
+        match self {
+            Self::Aging | Self::StrongWeakening => 120e6,
+            Self::Pressurized => 45e6,
+        }
+    }
+
     /// Initial shear stress \[Pa\].
     pub fn shear(self) -> f64 {
         match self {
             Self::Aging => 75e6,
             Self::StrongWeakening => 40e6,
+            Self::Pressurized => 0.41 * self.normal(),
         }
     }
 
@@ -32,16 +43,16 @@ impl Law {
     pub fn initial_rate(self) -> f64 {
         match self {
             Self::Aging => 0.5e-12,
-            Self::StrongWeakening => 0.5e-16,
+            Self::StrongWeakening | Self::Pressurized => 0.5e-16,
         }
     }
 
     /// The fully grown shear stress perturbation that nucleates the rupture, at a position \[Pa\].
     pub fn nucleation(self, x: f64) -> f64 {
-        let radius = 3e3;
-        let amplitude = match self {
-            Self::Aging => 25e6,
-            Self::StrongWeakening => 45e6,
+        let (amplitude, radius) = match self {
+            Self::Aging => (25e6, 3e3),
+            Self::StrongWeakening => (45e6, 3e3),
+            Self::Pressurized => (50e6, 1.5e3),
         };
         if x.abs() < radius {
             amplitude * (x * x / (x * x - radius * radius)).exp()
@@ -51,25 +62,50 @@ impl Law {
     }
 
     /// A scene with the fault.
-    pub fn on<Op: Operator<2>>(self, scene: Scene<Op, 2>, fault: &Trace<2>) -> Scene<Op, 2> {
-        let stress = Vector2::new(self.shear(), 0.0);
-        match self {
-            Self::Aging => {
-                let evolution = aging(0.0).aging();
-                let contact = Contact::per_vertex(fault, fault.map(|x| aging(x[0])), NORMAL)
-                    .with_state(evolution, fault.map(|x| LogTheta(initial(x[0]))));
-                scene.with_contact(contact.with_free_normal().with_shear_stress(stress))
-            }
-            Self::StrongWeakening => {
-                let laws = fault.map(|x| flash(x[0]));
-                let states = fault.map(|x| start(x[0]));
-                let evolutions: Vec<_> = laws.iter().map(StrongRateWeakening::evolution).collect();
-                let contact = Contact::per_vertex(fault, laws, NORMAL)
-                    .with_state_per_vertex(evolutions, states);
-                scene.with_contact(contact.with_free_normal().with_shear_stress(stress))
-            }
+    ///
+    /// # Errors
+    /// Parameters of the shear zone out of range: none of these.
+    pub fn on<Op: Operator<2>>(
+        self,
+        scene: Scene<Op, 2>,
+        fault: &Trace<2>,
+    ) -> Result<Scene<Op, 2>, ThermalError> {
+        let (normal, stress) = (self.normal(), Vector2::new(self.shear(), 0.0));
+        if self == Self::Aging {
+            let evolution = aging(0.0).aging();
+            let contact = Contact::per_vertex(fault, fault.map(|x| aging(x[0])), normal)
+                .with_state(evolution, fault.map(|x| LogTheta(initial(x[0]))));
+            return Ok(scene.with_contact(contact.with_free_normal().with_shear_stress(stress)));
         }
+        let laws = fault.map(|x| flash(x[0]));
+        let states = fault.map(|x| start(self, x[0]));
+        let evolutions: Vec<_> = laws.iter().map(StrongRateWeakening::evolution).collect();
+        let mut contact = Contact::per_vertex(fault, laws, normal)
+            .with_state_per_vertex(evolutions, states)
+            .with_free_normal()
+            .with_shear_stress(stress);
+        if self == Self::Pressurized {
+            contact = contact.with_field(heated(fault)?);
+        }
+        Ok(scene.with_contact(contact))
     }
+}
+
+/// The shear zone of TPV105: its fluid drains faster beyond the fault.
+fn heated(fault: &Trace<2>) -> Result<ThermalPressurization, ThermalError> {
+    let zone = ShearZone {
+        half_width: 0.02.into(),
+        // Heat comes from the whole slip rate, twice that of the body: half the capacity has the same temperature.
+        volumetric_heat_capacity: (0.5 * 2.7e6).into(),
+        thermal_diffusivity: 1e-6.into(),
+        initial_temperature: 483.15.into(),
+    };
+    let drainage: Vec<f64> = fault.map(|x| 4e-4 + (1.0 - taper(x[0])));
+    let fluid = PoreFluid {
+        hydraulic_diffusivity: drainage.into(),
+        pressurization_coefficient: 1e5.into(),
+    };
+    ThermalPressurization::new(fault.vertices().len(), zone, fluid)
 }
 
 /// 1 on the velocity-weakening fault, 0 beyond, smooth between: 15 km and 3 km wide.
@@ -100,13 +136,13 @@ fn aging(x: f64) -> RegularizedDieterichRuina {
 /// rate.
 fn initial(x: f64) -> f64 {
     let law = aging(x);
-    let coefficient = Law::Aging.shear() / NORMAL;
+    let coefficient = Law::Aging.shear() / Law::Aging.normal();
     let psi = (law.in_psi()).state_of_friction(coefficient, Law::Aging.initial_rate());
     let LogTheta(alpha) = law.aging_in_psi().log_theta(psi);
     alpha
 }
 
-/// The friction law of TPV103 at a position \[m\].
+/// The friction law of TPV103 and TPV105 at a position \[m\].
 fn flash(x: f64) -> StrongRateWeakening {
     let beyond = 1.0 - taper(x);
     StrongRateWeakening {
@@ -121,9 +157,8 @@ fn flash(x: f64) -> StrongRateWeakening {
 }
 
 /// The state at a position for which friction balances the initial shear stress.
-fn start(x: f64) -> Psi {
-    let law = Law::StrongWeakening;
-    flash(x).state_of_friction(law.shear() / NORMAL, law.initial_rate())
+fn start(law: Law, x: f64) -> Psi {
+    flash(x).state_of_friction(law.shear() / law.normal(), law.initial_rate())
 }
 
 #[cfg(test)]
@@ -135,18 +170,21 @@ mod tests {
     #[test]
     fn the_faults_start_in_balance() {
         assert!((initial(0.0) - 1.606_238_999_213_454e9_f64.ln()).abs() < 1e-12);
-        assert!((start(0.0).0 - 0.563_591_842_633).abs() < 1e-11);
-        assert!((start(20e3).0 - 0.793_850_351_932).abs() < 1e-11);
+        let strong = Law::StrongWeakening;
+        assert!((start(strong, 0.0).0 - 0.563_591_842_633).abs() < 1e-11);
+        assert!((start(strong, 20e3).0 - 0.793_850_351_932).abs() < 1e-11);
         for x in [0.0, 15.5e3, 17e3, 20e3] {
             let (law, ratio) = (aging(x), 0.5 * Law::Aging.initial_rate());
             let state = (law.reference_velocity * initial(x).exp() / law.slip_distance).ln();
             let argument = ratio / law.reference_velocity
                 * ((law.reference_friction + law.b * state) / law.a).exp();
-            let shear = law.a * argument.asinh() * NORMAL;
+            let shear = law.a * argument.asinh() * Law::Aging.normal();
             assert!((shear / Law::Aging.shear() - 1.0).abs() < 1e-12, "{x}");
-            let strong = Law::StrongWeakening;
-            let shear = flash(x).coefficient(strong.initial_rate(), start(x)) * NORMAL;
-            assert!((shear / strong.shear() - 1.0).abs() < 1e-12, "{x}");
+            for strong in [Law::StrongWeakening, Law::Pressurized] {
+                let friction = flash(x).coefficient(strong.initial_rate(), start(strong, x));
+                let shear = friction * strong.normal();
+                assert!((shear / strong.shear() - 1.0).abs() < 1e-12, "{x}");
+            }
         }
     }
 }

@@ -22,18 +22,33 @@ const REFERENCE: [[f64; 4]; 3] = [
 ///
 /// # Errors
 /// Files that cannot be written, and results that differ from the spectral code's where they should agree.
-pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 4>) -> Result<(), Problem> {
+pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 6>) -> Result<(), Problem> {
     const FILES: [&str; 3] = ["stations.csv", "rupture.png", "summary.json"];
     let output = arguments.files.create("rupture", &FILES)?;
     let stations = probes.each.iter().map(|station| {
         let x = space.mesh().vertices()[station.vertex][0];
         (x, station)
     });
+    let heats = arguments.thermal_pressurization;
+    let (names, count) = if heats {
+        (
+            "x,time,slip,slip_rate,shear_stress,pore_pressure,temperature",
+            7,
+        )
+    } else {
+        ("x,time,slip,slip_rate,shear_stress", 5)
+    };
     let rows = stations.clone().flat_map(|(x, station)| {
         let rows = station.rows.iter().skip(1);
-        rows.map(move |row| [x, row[0], row[1], row[2], row[3]].map(number))
+        rows.map(move |row| {
+            [x].iter()
+                .chain(row)
+                .take(count)
+                .map(|own| number(*own))
+                .collect::<Vec<_>>()
+        })
     });
-    output.table(FILES[0], "x,time,slip,slip_rate,shear_stress", rows)?;
+    output.table(FILES[0], names, rows)?;
     let names: Vec<String> = (stations.clone())
         .map(|(x, _)| format!("x = {} km", x / 1e3))
         .collect();
@@ -44,12 +59,16 @@ pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 4>) -> Re
         }
         panel
     };
-    let panels = [
+    let mut panels = vec![
         panel("slip [m]", 1, 1.0),
         panel("slip rate [m/s]", 2, 1.0),
         panel("shear stress [MPa]", 3, 1e-6),
     ];
-    plot::draw(&output.path(FILES[1]), &panels)?;
+    if heats {
+        panels.push(panel("pore pressure [MPa]", 4, 1e-6));
+        panels.push(panel("temperature [K]", 5, 1.0));
+    }
+    plot::draw(&output.path(FILES[1]), &panels[..])?;
     let (mut summary, mut verdict) = (Vec::new(), Ok(()));
     let mut lines = vec![format!(
         "{:>6} {:>10} {:>10} {:>10} {:>12}",
@@ -88,7 +107,16 @@ pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 4>) -> Re
         let slips: Object<String, serde_json::Value> = (arguments.stops())
             .map(|time| (time.to_string(), json!(at(time))))
             .collect();
-        summary.push(json!({ "x": x, "arrival": arrival, "slip": slips, "peak_stress": peak }));
+        let mut own = json!({ "x": x, "arrival": arrival, "slip": slips, "peak_stress": peak });
+        if heats {
+            let largest = |column: usize| {
+                let rows = station.rows.iter().map(|row| row[column]);
+                rows.fold(0.0, f64::max)
+            };
+            own["peak_pore_pressure"] = largest(4).into();
+            own["peak_temperature"] = largest(5).into();
+        }
+        summary.push(own);
     }
     let milliseconds = probes.milliseconds_per_step();
     output.json(

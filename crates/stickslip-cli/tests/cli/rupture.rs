@@ -43,3 +43,37 @@ fn strong_weakening_spreads() -> Outcome {
     }
     Ok(())
 }
+
+/// Heat pressurizes the fluid of a fault that slips, less than to its normal stress; friction without it keeps more.
+#[test]
+fn thermal_pressurization_weakens_further() -> Outcome {
+    let folder = folder("rupture-heat")?;
+    let line = "--law strong-weakening --thermal-pressurization --cell 500 --growth 0.3 --height 12e3 --until 3";
+    let output = program("rupture")
+        .args(line.split(' '))
+        .arg("--out")
+        .arg(&folder)
+        .output()?;
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{told}");
+    let summary: Value = serde_json::from_str(&fs::read_to_string(folder.join("summary.json"))?)?;
+    let middle = &summary["stations"][0];
+    let [pressure, temperature, slip] = [
+        middle["peak_pore_pressure"].as_f64(),
+        middle["peak_temperature"].as_f64(),
+        middle["slip"]["3"].as_f64(),
+    ];
+    let (pressure, temperature, slip) = (
+        pressure.ok_or("no pressure")?,
+        temperature.ok_or("no temperature")?,
+        slip.ok_or("no slip")?,
+    );
+    assert!(pressure > 1e6 && pressure < 45e6, "{pressure}");
+    // At most all work of friction, at 0.6 of the normal stress, within the Gaussian.
+    let adiabatic = 0.6 * 45e6 * slip / (2.7e6 * 0.02 * std::f64::consts::TAU.sqrt());
+    assert!(
+        temperature > 500.0 && temperature < 483.15 + adiabatic,
+        "{temperature} {slip}"
+    );
+    Ok(())
+}
