@@ -7,7 +7,8 @@ use clap::{Parser, Subcommand};
 use crate::cli::{self, Problem, Refusal};
 use crate::output::Files;
 use crate::{
-    earthquakes, figures, fit, gmsh, layer, rupture, slider, slider3d, spring_slider, sweep,
+    earthquakes, figures, fit, gmsh, injection, layer, rupture, slider, slider3d, spring_slider,
+    sweep,
 };
 
 /// Stick-slip of elastic bodies under rate-and-state friction. Each command writes numbers and pictures to a folder.
@@ -24,6 +25,7 @@ enum Command {
     Figures(figures::Arguments),
     Fit(Box<fit::Arguments>),
     Earthquakes(earthquakes::Arguments),
+    Injection(Box<injection::Arguments>),
     Gmsh(Box<gmsh::Arguments>),
     Sweep(sweep::Arguments),
     Rupture(rupture::Arguments),
@@ -40,6 +42,7 @@ impl Command {
             Self::Figures(arguments) => arguments.files(),
             Self::Fit(arguments) => (&arguments.output, "fit"),
             Self::Earthquakes(arguments) => (&arguments.files, "earthquakes"),
+            Self::Injection(arguments) => (&arguments.files, "injection"),
             Self::Gmsh(arguments) => (&arguments.files, "gmsh"),
             Self::Sweep(arguments) => (&arguments.files, "sweep"),
             Self::Rupture(arguments) => (&arguments.files, "rupture"),
@@ -62,6 +65,7 @@ pub fn run(line: &CommandLine) -> Result<(), Problem> {
         Command::Figures(arguments) => figures::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),
         Command::Earthquakes(arguments) => earthquakes::run(arguments),
+        Command::Injection(arguments) => injection::run(arguments),
         Command::Gmsh(arguments) => gmsh::run(arguments),
         Command::Sweep(arguments) => sweep::run(arguments),
         Command::Rupture(arguments) => rupture::run(arguments),

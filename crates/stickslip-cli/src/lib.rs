@@ -22,6 +22,7 @@ pub mod earthquakes;
 pub mod figures;
 pub mod fit;
 pub mod gmsh;
+pub mod injection;
 pub mod interrupt;
 pub mod laws;
 pub mod layer;

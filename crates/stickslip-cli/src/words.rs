@@ -67,6 +67,9 @@ fn hint_of_step(error: &StepError) -> Option<&'static str> {
             "--allow-opening lets it open, unless its normal motion is prescribed or contacts meet there that do not \
              all open along one normal"
         }
+        StepError::PorePressure { .. } => {
+            "--least-normal-stress PA keeps some of it for friction, --allow-opening opens the fault there"
+        }
         StepError::NotUnique { shorter: true, .. } => "take shorter steps",
         StepError::Penetration { .. } => "take another --solver",
         StepError::NotContracting { .. } => {

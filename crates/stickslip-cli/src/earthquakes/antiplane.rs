@@ -6,15 +6,15 @@ use stickslip::bie::Fault;
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
 use stickslip::nalgebra::{DMatrix, Vector1};
-use stickslip::state::Dieterich;
+use stickslip::state::{Dieterich, LogTheta, StateLaw};
 use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simulation};
 
 pub(super) type Friction<const C: usize = 1> = Contact<RegularizedDieterichRuina, Dieterich, C>;
 
 /// The scene: the fault starts with a uniform slip rate, and creeps at a constant rate beyond its cells.
-fn scene<Op: Operator<1>>(
+fn scene<Op: Operator<1>, S: StateLaw<State = LogTheta> + 'static>(
     (fault, [stiffness, damping]): (&Fault, [Op; 2]),
-    (friction, [start, beyond]): (Friction, [f64; 2]),
+    (friction, [start, beyond]): (Contact<RegularizedDieterichRuina, S, 1>, [f64; 2]),
 ) -> Scene<Op, 1> {
     Scene::new(stiffness)
         .with_viscosity(damping)
@@ -25,10 +25,10 @@ fn scene<Op: Operator<1>>(
 
 /// The motion of an antiplane fault with the requested method, from a slip rate on its cells and with another one
 /// beyond [m/s].
-pub(super) fn antiplane(
+pub(super) fn antiplane<S: StateLaw<State = LogTheta> + 'static>(
     arguments: &Arguments,
     fault: &Fault,
-    friction: Friction,
+    friction: Contact<RegularizedDieterichRuina, S, 1>,
     rates: [f64; 2],
 ) -> Result<Box<dyn Stepper<1>>, cli::Problem> {
     let operators = [fault.stiffness(), fault.radiation_damping()];

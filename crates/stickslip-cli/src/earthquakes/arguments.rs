@@ -6,7 +6,7 @@ use clap::{Parser, ValueEnum};
 use stickslip::Steps;
 use stickslip::bie::{Cells, Sense};
 
-use super::YEAR;
+use super::{DAY, Fluid, Source, YEAR};
 use crate::cli::{Problem as Failed, positive};
 use crate::output::Files;
 
@@ -20,17 +20,17 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Problem::Bp1)]
     pub problem: Problem,
     /// The length of a cell [m], a whole part of the fault; 100 for bp1 and bp2, 50 for bp3, 500 for bp4, 1000 for bp5,
-    /// 10 for bp6 and bp7 by default
+    /// 10 for bp6, bp6s, bp7 and bp8 by default
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub cell: Option<f64>,
-    /// The end of the run [years]; 300 for bp1, 1200 for bp2, 1500 for bp3, 1000 for bp4, 1800 for bp5, 2 for bp6 and
-    /// bp7 by default
+    /// The end of the run [years]; 300 for bp1, 1200 for bp2, 1500 for bp3, 1000 for bp4, 1800 for bp5, 2 for bp6,
+    /// bp6s and bp7, 30 days for bp8 by default
     #[arg(long, value_name = "YEARS", value_parser = positive)]
     pub years: Option<f64>,
     /// The error tolerance of ln V and ln theta per step
     #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-4, value_parser = positive)]
     pub adaptive: f64,
-    /// The time discretisation; runge-kutta alone for bp3, bp4, bp5 and bp7
+    /// The time discretisation; runge-kutta alone for bp3, bp4, bp5, bp7 and bp8
     #[arg(long, value_enum, default_value_t = Method::RungeKutta)]
     pub method: Method,
     /// bp3: the dip [degrees], 60 by default; published are 30, 60 and 90
@@ -42,13 +42,16 @@ pub struct Arguments {
     /// bp3: the hanging wall moves down dip
     #[arg(long)]
     pub normal: bool,
-    /// bp4, bp5, bp7: components of slip, 1 along strike or 2; 1 by default
+    /// bp4, bp5, bp7, bp8: components of slip, 1 along strike or 2; 1 by default, 2 for bp8
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u8).range(1..=2))]
     pub components: Option<u8>,
     /// bp7: steady slip, without the overstress of the first second
     #[arg(long)]
     pub no_perturbation: bool,
-    /// A folder for files in the format of the SEAS benchmarks; not for bp6
+    /// The settings of problems with fluid injection.
+    #[command(flatten)]
+    pub fluid: Fluid,
+    /// A folder for files in the format of the SEAS benchmarks
     #[arg(long, value_name = "DIR")]
     pub seas: Option<PathBuf>,
     /// The folder and the digits of the files.
@@ -78,8 +81,12 @@ pub enum Problem {
     Bp5,
     /// Fluid injection into a fault, antiplane, in a whole space
     Bp6,
+    /// bp6 with the slip law in the place of the aging law
+    Bp6s,
     /// Small repeating earthquakes of a circular patch on a plane in a whole space
     Bp7,
+    /// Fluid injection into a plane in a whole space
+    Bp8,
 }
 
 /// Methods by name.
@@ -101,7 +108,9 @@ impl Problem {
             Self::Bp4 => "bp4",
             Self::Bp5 => "bp5",
             Self::Bp6 => "bp6",
+            Self::Bp6s => "bp6s",
             Self::Bp7 => "bp7",
+            Self::Bp8 => "bp8",
         }
     }
 
@@ -114,12 +123,13 @@ impl Problem {
             Self::Bp3 => [50.0, 1500.0],
             Self::Bp4 => [500.0, 1000.0],
             Self::Bp5 => [1000.0, 1800.0],
-            Self::Bp6 | Self::Bp7 => [10.0, 2.0],
+            Self::Bp6 | Self::Bp6s | Self::Bp7 => [10.0, 2.0],
+            Self::Bp8 => [10.0, 30.0 * DAY / YEAR],
         }
     }
 
     fn is_plane(self) -> bool {
-        matches!(self, Self::Bp4 | Self::Bp5 | Self::Bp7)
+        matches!(self, Self::Bp4 | Self::Bp5 | Self::Bp7 | Self::Bp8)
     }
 }
 
@@ -127,6 +137,8 @@ impl Arguments {
     /// Refuses settings of another problem.
     pub(super) fn check(&self) -> Result<(), Failed> {
         let (problem, bp3) = (self.problem, self.problem == Problem::Bp3);
+        let bp6 = matches!(problem, Problem::Bp6 | Problem::Bp6s);
+        let (bp8, fluid) = (problem == Problem::Bp8, &self.fluid);
         let dense = self.method == Method::Implicit;
         for (flag, given, known) in [
             ("--dip", self.dip.is_some(), bp3),
@@ -142,7 +154,15 @@ impl Arguments {
                 self.no_perturbation,
                 problem == Problem::Bp7,
             ),
-            ("--seas", self.seas.is_some(), problem != Problem::Bp6),
+            ("--pressure", fluid.pressure.is_some(), bp6),
+            ("--source", fluid.source.is_some(), bp8),
+            ("--refine", fluid.refine.is_some(), bp8),
+            (
+                "--least-normal-stress",
+                fluid.least_normal_stress.is_some(),
+                bp8,
+            ),
+            ("--allow-opening", fluid.allow_opening, bp8),
             ("--method implicit", dense, !bp3 && !problem.is_plane()),
         ] {
             if given && !known {
@@ -150,6 +170,18 @@ impl Arguments {
             }
         }
         Ok(())
+    }
+
+    /// The name of the benchmark.
+    pub(super) fn published(&self) -> String {
+        let kind = match (self.problem, self.fluid.source()) {
+            (Problem::Bp6 | Problem::Bp7, _) => "-A",
+            (Problem::Bp6s, _) => return "BP6-QD-S".into(),
+            (Problem::Bp8, Source::Gaussian) => "-GS",
+            (Problem::Bp8, Source::Well) => "-PW",
+            _ => "",
+        };
+        format!("{}-QD{kind}", self.problem.name().to_uppercase())
     }
 
     /// The requested cell length \[m\].
@@ -226,7 +258,11 @@ mod tests {
             "--problem bp3 --components 1",
             "--problem bp5 --no-perturbation",
             "--problem bp7 --method implicit",
-            "--problem bp6 --seas files",
+            "--problem bp8 --pressure solver",
+            "--problem bp6 --source well",
+            "--problem bp7 --least-normal-stress 1e6",
+            "--problem bp6 --allow-opening",
+            "--problem bp6 --refine 3",
         ] {
             let refused = read(line).check().map_err(|error| error.to_string());
             assert!(
@@ -237,6 +273,8 @@ mod tests {
         for line in [
             "--problem bp3 --dip 30 --normal",
             "--problem bp7 --no-perturbation --components 2",
+            "--problem bp6s --pressure closed-form --seas files",
+            "--problem bp8 --source well --allow-opening --refine 1",
         ] {
             assert!(read(line).check().is_ok(), "{line}");
         }

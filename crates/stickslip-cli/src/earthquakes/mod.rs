@@ -7,11 +7,13 @@ pub mod bp4;
 pub mod bp5;
 pub mod bp6;
 pub mod bp7;
+pub mod bp8;
 
 mod antiplane;
 mod arguments;
 mod contours;
 mod events;
+mod fluid;
 mod line;
 mod pictures;
 mod plane;
@@ -19,10 +21,12 @@ mod plane_record;
 mod profiles;
 mod run;
 mod seas;
-mod space_time;
-mod stations;
+pub(crate) mod space_time;
+pub(crate) mod stations;
+pub(crate) mod watch;
 
 pub use arguments::{Arguments, Method, Problem};
+pub use fluid::{Fluid, Pressure, Source};
 pub use run::run;
 
 use stickslip::friction::RegularizedDieterichRuina;
@@ -36,7 +40,7 @@ pub const YEAR: f64 = 31_557_600.0;
 pub const DAY: f64 = 86_400.0;
 
 /// The state, `ln(theta / 1 s)`, for which friction at a slip rate balances a ratio of shear to normal stress.
-fn state_for(law: &RegularizedDieterichRuina, ratio: f64, rate: f64) -> f64 {
+pub(crate) fn state_for(law: &RegularizedDieterichRuina, ratio: f64, rate: f64) -> f64 {
     // ln(2 sinh y) without overflow, y = f/a.
     let y = ratio / law.a;
     let log_sinh = y + (-(-2.0 * y).exp()).ln_1p();

@@ -145,9 +145,11 @@ impl Setting {
                 .iter()
                 .map(|&at| SeasPoint::Plane(at))
                 .collect(),
-            line: along.map(point),
+            lines: vec![along.map(point)],
             names: self.names,
             normal_stress: false,
+            pore_fluid: false,
+            shear_modulus: MEDIUM.shear_modulus,
             event: (EVENT, self.intervals),
             directions: fault.directions(),
         }

@@ -1,11 +1,12 @@
-//! Earthquake cycles and fluid-driven creep: the benchmark problems BP1-QD to BP5-QD, BP6-QD-A and BP7-QD-A.
+//! Earthquake cycles and fluid-driven creep: the benchmark problems BP1-QD to BP5-QD, BP6-QD-A and -S,
+//! BP7-QD-A and BP8-QD.
 //!
 //! Planar faults by boundary integrals: the rock around them acts by its kernel, and its waves by radiation damping.
-//! Displacements are slip across the fault, as published. `-- --problem bp6` is the injection.
+//! Displacements are slip across the fault, as published. `-- --problem bp6` and `bp8` are the injections.
 //!
 //! Parameters: B. Erickson et al., Seismol. Res. Lett. 91 (2020), and the descriptions of these SEAS benchmarks.
 
-use super::{Arguments, Problem, bp1, bp2, bp3, bp4, bp5, bp6, bp7};
+use super::{Arguments, Problem, bp1, bp2, bp3, bp4, bp5, bp6, bp7, bp8};
 use crate::cli;
 
 /// Earthquake cycles and injection on a planar fault by boundary integrals.
@@ -21,7 +22,8 @@ pub fn run(arguments: &Arguments) -> Result<(), cli::Problem> {
         Problem::Bp3 => bp3::run(arguments),
         Problem::Bp4 => bp4::run(arguments),
         Problem::Bp5 => bp5::run(arguments),
-        Problem::Bp6 => bp6::run(arguments),
+        Problem::Bp6 | Problem::Bp6s => bp6::run(arguments),
         Problem::Bp7 => bp7::run(arguments),
+        Problem::Bp8 => bp8::run(arguments),
     }
 }

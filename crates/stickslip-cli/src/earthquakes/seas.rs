@@ -1,7 +1,6 @@
 //! Files in the format of the SEAS benchmarks.
 
 use stickslip::Snapshot;
-use stickslip::problems::bp1::MEDIUM;
 use stickslip::record::{SeasFiles, SeasFolder, SeasHeader, SeasPoint};
 
 use super::{Arguments, Failed};
@@ -9,13 +8,16 @@ use super::{Arguments, Failed};
 /// The places of the files.
 pub(super) struct Places<'a> {
     pub(super) stations: Vec<SeasPoint>,
-    /// The points of the profiles.
-    pub(super) line: Vec<SeasPoint>,
+    /// The points of the profiles, a line each.
+    pub(super) lines: Vec<Vec<SeasPoint>>,
     /// The unit \[m\] and the digits of the names of stations.
     pub(super) names: (f64, usize),
     pub(super) normal_stress: bool,
+    pub(super) pore_fluid: bool,
     /// The slip rate of an event [m/s], and the intervals of profiles below and above it \[s\].
     pub(super) event: (f64, [f64; 2]),
+    /// \[Pa\]
+    pub(super) shear_modulus: f64,
     /// The components of slip, along strike and up dip.
     pub(super) directions: &'a [[f64; 2]],
 }
@@ -29,20 +31,24 @@ pub(super) fn files<const C: usize>(
     let Some(folder) = &arguments.seas else {
         return Ok(None);
     };
-    let name = arguments.problem.name().to_uppercase();
-    let kind = if name == "BP7" { "QD-A" } else { "QD" };
-    let header = SeasHeader::new(&format!("SEAS Benchmark {name}-{kind}"))
+    let name = arguments.published();
+    let header = SeasHeader::new(&format!("SEAS Benchmark {name}"))
         .with("element_size", &format!("{} m", arguments.cell()));
     let ((unit, digits), (event, intervals)) = (places.names, places.event);
     let mut files = SeasFolder::new(folder, header)
         .with_stations(places.stations)
-        .with_line(places.line)
         .with_names(unit, digits)
         .with_event_rate(event)
         .at_intervals(intervals);
+    for line in places.lines {
+        files = files.with_line(line);
+    }
+    if places.pore_fluid {
+        files = files.with_pore_fluid();
+    }
     if places.normal_stress {
         files = files.with_normal_stress();
     }
-    let files = files.create(at, MEDIUM.shear_modulus, places.directions)?;
+    let files = files.create(at, places.shear_modulus, places.directions)?;
     Ok(Some(files))
 }

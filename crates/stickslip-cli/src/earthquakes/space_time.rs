@@ -7,7 +7,7 @@ const ROWS: usize = 240;
 const COLUMNS: usize = 640;
 
 /// Slip rates of cells on a line over time and over steps: columns of a picture, each with the largest slip rate in it.
-pub(super) struct SpaceTime {
+pub(crate) struct SpaceTime {
     /// Cells and their positions, increasing.
     line: Vec<(usize, f64)>,
     /// Even parts of the time \[s\] up to this end; empty ones have no steps.
@@ -20,15 +20,15 @@ pub(super) struct SpaceTime {
 }
 
 /// A field over two coordinates, the second one of the line.
-pub(super) struct Field {
-    pub(super) x: Vec<f64>,
-    pub(super) y: Vec<f64>,
-    pub(super) values: Vec<f64>,
+pub(crate) struct Field {
+    pub(crate) x: Vec<f64>,
+    pub(crate) y: Vec<f64>,
+    pub(crate) values: Vec<f64>,
 }
 
 impl SpaceTime {
     /// The slip rates of a line of cells, with increasing positions, up to a time \[s\].
-    pub(super) fn new(line: &[(usize, f64)], end: f64) -> Self {
+    pub(crate) fn new(line: &[(usize, f64)], end: f64) -> Self {
         let every = line.len().div_ceil(ROWS).max(1);
         Self {
             line: line.iter().copied().step_by(every).collect(),
@@ -40,9 +40,13 @@ impl SpaceTime {
         }
     }
 
-    pub(super) fn record<const C: usize>(&mut self, time: f64, contact: &ContactView<'_, C>) {
-        let rates = self.line.iter().map(|&(cell, _)| contact.slip_rate(cell));
-        let rates: Vec<f64> = rates.collect();
+    pub(crate) fn record<const C: usize>(&mut self, time: f64, contact: &ContactView<'_, C>) {
+        self.record_of(time, |cell| contact.slip_rate(cell));
+    }
+
+    /// Records a quantity in the place of the slip rate.
+    pub(crate) fn record_of(&mut self, time: f64, value: impl Fn(usize) -> f64) {
+        let rates: Vec<f64> = self.line.iter().map(|&(cell, _)| value(cell)).collect();
         let column = (time / self.end * COLUMNS as f64) as usize;
         match &mut self.times[column.min(COLUMNS - 1)] {
             Some(largest) => raise(largest, &rates),
@@ -67,7 +71,7 @@ impl SpaceTime {
     }
 
     /// Over time, in units of `unit` seconds. Parts without steps are those before them.
-    pub(super) fn over_time(&self, unit: f64) -> Field {
+    pub(crate) fn over_time(&self, unit: f64) -> Field {
         let part = self.end / COLUMNS as f64 / unit;
         let mut last = self.times.iter().flatten().next();
         let columns = self.times.iter().enumerate().filter_map(|(n, rates)| {
@@ -78,7 +82,7 @@ impl SpaceTime {
     }
 
     /// Over the number of the step.
-    pub(super) fn over_steps(&self) -> Field {
+    pub(crate) fn over_steps(&self) -> Field {
         let columns = self.steps.iter().enumerate();
         let columns = columns.map(|(n, rates)| ((n * self.stride) as f64, rates));
         self.field(columns, self.count as f64)

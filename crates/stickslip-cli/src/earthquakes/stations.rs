@@ -4,16 +4,16 @@ use stickslip::ContactView;
 use stickslip::bie::{Cells, Rectangles};
 
 /// A position between cells, or beyond the outermost centres.
-pub(super) struct Station {
+pub(crate) struct Station {
     /// Along strike and down dip \[m\].
-    pub(super) position: [f64; 2],
+    pub(crate) position: [f64; 2],
     /// Cells and their weights.
     cells: Vec<(usize, f64)>,
 }
 
 impl Station {
     /// A station on a line.
-    pub(super) fn on_line(cells: &Cells, z: f64) -> Self {
+    pub(crate) fn on_line(cells: &Cells, z: f64) -> Self {
         Self {
             position: [0.0, z],
             cells: neighbours(cells, z).to_vec(),
@@ -21,7 +21,7 @@ impl Station {
     }
 
     /// A station on a plane, along strike and down dip.
-    pub(super) fn on_plane(cells: &Rectangles, [x, y]: [f64; 2]) -> Self {
+    pub(crate) fn on_plane(cells: &Rectangles, [x, y]: [f64; 2]) -> Self {
         let rows = neighbours(cells.down_dip(), y);
         let columns = neighbours(cells.along_strike(), x);
         let pairs = rows
@@ -41,23 +41,28 @@ impl Station {
     }
 
     /// Slip \[m\].
-    pub(super) fn slip<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
+    pub(crate) fn slip<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
         self.mean(|k| contact.slip(k))
     }
 
     /// `log10(V / 1 m/s)`.
-    pub(super) fn log_rate<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
+    pub(crate) fn log_rate<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
         self.mean(|k| contact.slip_rate(k).log10())
     }
 
     /// The shear stress along the first direction of slip \[Pa\].
-    pub(super) fn stress<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
+    pub(crate) fn stress<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
         self.mean(|k| contact.traction(k)[0])
     }
 
     /// The normal stress \[Pa\].
-    pub(super) fn normal_stress<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
+    pub(crate) fn normal_stress<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
         self.mean(|k| contact.normal_stress(k))
+    }
+
+    /// The pore pressure \[Pa\].
+    pub(crate) fn pore_pressure<const C: usize>(&self, contact: &ContactView<'_, C>) -> f64 {
+        self.mean(|k| contact.pore_pressure(k))
     }
 }
 

@@ -184,6 +184,16 @@ impl Table {
         matches!(self.names.position(&self.file, name), Ok(Some(_)) | Err(_))
     }
 
+    /// The line of each row, from 1 on.
+    pub fn lines(&self) -> &[usize] {
+        &self.lines
+    }
+
+    /// The name of its file.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
     /// Columns by their names or their numbers, from 1 on, without rows that have an empty cell in one of them.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 mod crack;
 mod fit;
 mod fit_jointly;
+mod injection;
 mod killed;
 mod pipes;
 mod refusals;

@@ -190,7 +190,7 @@ const WRONG: [Wrong<'_>; 9] = [
             "--problem bp3 --thrust --normal",
             "--problem bp5 --method implicit",
             "--problem bp7 --components 3",
-            "--problem bp6 --seas x",
+            "--problem bp6 --source well",
             "--seas /dev/null/x",
             "--out /dev/null/x",
         ],

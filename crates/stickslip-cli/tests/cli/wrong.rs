@@ -124,8 +124,37 @@ const FIT: [Wrong; 25] = [
     ),
 ];
 
-const OTHERS: [Wrong; 37] = [
-    ("earthquakes --problem bp8", "--problem"),
+const INJECTION: [Wrong; 20] = [
+    ("injection --cell 7 --length 100", "--cell 7"),
+    ("injection --cell 1e-9 --length 1", "--cell"),
+    ("injection --line --width 5", "--width"),
+    ("injection --line --poisson-ratio 0.2", "--poisson-ratio"),
+    ("injection --wells none.csv", "none.csv"),
+    ("injection --wells Cargo.toml", "Cargo.toml, line 1, cell 1"),
+    ("injection --wells none.csv --rate 1", "--rate"),
+    ("injection --wells none.csv --shut-in 1", "--shut-in"),
+    ("injection --rates constant", "--wells"),
+    ("injection --rate nan", "--rate"),
+    ("injection --rate 1", "--least-normal-stress PA"),
+    ("injection --constant-friction 0.6 --a 0.01", "--a"),
+    (
+        "injection --constant-friction 0.6 --adaptive 1",
+        "--adaptive",
+    ),
+    (
+        "injection --constant-friction 0.6 --cell 1 --length 200 --width 100",
+        "raise --cell",
+    ),
+    ("injection --steps 5", "--constant-friction"),
+    ("injection --permeability 0", "--permeability"),
+    ("injection --station 1,2,3", "--station"),
+    ("injection --station 1e4,0", "is not on the fault"),
+    ("injection --line --station 0,5", "is not on the fault"),
+    ("injection --shear-stress 0", "--shear-stress"),
+];
+
+const OTHERS: [Wrong; 39] = [
+    ("earthquakes --problem bp9", "--problem"),
     ("earthquakes --cell 333", "--cell 333"),
     ("earthquakes --cell 1e-9", "--cell"),
     ("earthquakes --years 0", "--years"),
@@ -136,7 +165,12 @@ const OTHERS: [Wrong; 37] = [
     ),
     ("earthquakes --problem bp3 --dip 120", "--dip"),
     ("earthquakes --problem bp5 --components 3", "--components"),
-    ("earthquakes --problem bp6 --seas x", "--seas"),
+    ("earthquakes --problem bp7 --pressure solver", "--pressure"),
+    ("earthquakes --problem bp8 --refine 2", "--refine"),
+    (
+        "earthquakes --problem bp8 --cell 40 --source well",
+        "--least-normal-stress PA",
+    ),
     (
         "earthquakes --problem bp5 --method implicit",
         "--method implicit",
@@ -181,11 +215,12 @@ const OTHERS: [Wrong; 37] = [
 ];
 
 /// Every command refuses a file as its folder before it runs.
-const COMMANDS: [&str; 10] = [
+const COMMANDS: [&str; 11] = [
     "slider",
     "figures 6.1",
     "fit DATA",
     "earthquakes",
+    "injection",
     "gmsh MESH",
     "sweep",
     "rupture",
@@ -231,7 +266,13 @@ fn refused(line: &str, out: &Path, expected: &str) -> Outcome {
 #[test]
 fn wrong_input_is_one_line_in_words_of_the_command_line() -> Outcome {
     let out = folder("wrong-input")?;
-    for (line, expected) in SLIDER.iter().chain(&SPRING).chain(&FIT).chain(&OTHERS) {
+    for (line, expected) in SLIDER
+        .iter()
+        .chain(&SPRING)
+        .chain(&FIT)
+        .chain(&INJECTION)
+        .chain(&OTHERS)
+    {
         refused(line, &out, expected)?;
     }
     Ok(())

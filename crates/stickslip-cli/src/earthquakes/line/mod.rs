@@ -162,9 +162,11 @@ impl<'a> Line<'a> {
     fn places(&self) -> Places<'static> {
         Places {
             stations: FILED.map(|z| SeasPoint::Line(1e3 * z)).to_vec(),
-            line: self.cells.map(SeasPoint::Line),
+            lines: vec![self.cells.map(SeasPoint::Line)],
             names: (100.0, 3),
             normal_stress: self.follows,
+            pore_fluid: false,
+            shear_modulus: MEDIUM.shear_modulus,
             event: (EVENT, INTERVALS),
             directions: &[[1.0, 0.0]],
         }

@@ -3,6 +3,7 @@
 mod arrays;
 mod events;
 mod files;
+mod fluid;
 mod layouts;
 mod lines;
 mod planes;

@@ -5,6 +5,7 @@ mod agreement;
 mod closed_forms;
 mod energy;
 mod fields;
+mod fluid_driven;
 mod fluids;
 mod in_threads;
 mod one_type;

@@ -19,14 +19,35 @@ const PLANE: [Column<'static>; 7] = [
     ("shear_stress_3", "Shear_stress_3 (MPa)"),
 ];
 
-/// The columns of a station, with its normal stress if it has that one.
-pub(super) fn columns(point: SeasPoint, normal_stress: bool) -> Vec<Column<'static>> {
-    let mut columns = match point {
-        SeasPoint::Line(_) => LINE.to_vec(),
-        SeasPoint::Plane(_) => PLANE.to_vec(),
+const LINE_FLUID: [Column<'static>; 2] = [
+    ("pore_pressure", "Pore pressure (MPa)"),
+    ("darcy_vel", "Darcy velocity (m/s)"),
+];
+
+const PLANE_FLUID: [Column<'static>; 3] = [
+    ("pore_pressure", "Pore pressure (MPa)"),
+    ("darcy_vel_2", "Darcy_velocity_2 (m/s)"),
+    ("darcy_vel_3", "Darcy_velocity_3 (m/s)"),
+];
+
+/// Columns that a station may have or not.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Chosen {
+    pub normal_stress: bool,
+    pub pore_fluid: bool,
+}
+
+/// The columns of a station.
+pub(super) fn columns(point: SeasPoint, chosen: Chosen) -> Vec<Column<'static>> {
+    let (mut columns, fluid) = match point {
+        SeasPoint::Line(_) => (LINE.to_vec(), &LINE_FLUID[..]),
+        SeasPoint::Plane(_) => (PLANE.to_vec(), &PLANE_FLUID[..]),
     };
-    if normal_stress {
+    if chosen.normal_stress {
         columns.push(("normal_stress", "Normal stress (MPa)"));
+    }
+    if chosen.pore_fluid {
+        columns.extend(fluid);
     }
     columns.push(("state", "State (log10 s)"));
     columns

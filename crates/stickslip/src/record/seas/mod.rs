@@ -2,6 +2,8 @@
 
 mod columns;
 mod files;
+mod fluid;
+mod folder;
 mod global;
 mod header;
 mod place;
@@ -13,7 +15,8 @@ mod rows;
 mod station;
 mod table;
 
-pub use files::{SeasFiles, SeasFolder};
+pub use files::SeasFiles;
+pub use folder::SeasFolder;
 pub use global::SeasGlobal;
 pub use header::SeasHeader;
 pub use point::SeasPoint;

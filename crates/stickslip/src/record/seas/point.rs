@@ -23,7 +23,7 @@ impl SeasPoint {
     /// | BP1, BP2, BP3 | 100 m, 3 | `fltst_dp075` |
     /// | BP4 | 100 m, 3 | `fltst_strk-225dp+000` |
     /// | BP5 | 1 km, 2 | `fltst_strk-16dp+10` |
-    /// | BP7 | 1 m, 3 | `fltst_strk-050dp+100` |
+    /// | BP7, BP8 | 1 m, 3 | `fltst_strk-050dp+100` |
     ///
     /// ```
     /// use stickslip::record::SeasPoint;

@@ -15,9 +15,9 @@ use crate::{FileError, SceneError, Snapshot};
 /// `slip_2_strike.dat`; `shear_stress.dat`, `stress_2_strike.dat`; `normal_stress.dat`).
 ///
 /// The first row is `0 0` and the positions \[m\]; each other row is the time \[s\], log10 of the largest slip rate
-/// [m/s] and the slip \[m\] at each position, or by [`shear_stress`](Self::shear_stress) and
-/// [`normal_stress`](Self::normal_stress) the stress \[MPa\]. Between cells both are interpolated as by
-/// [`SeasStation`](super::SeasStation).
+/// [m/s] and the slip \[m\] at each position, or by [`shear_stress`](Self::shear_stress),
+/// [`normal_stress`](Self::normal_stress) and [`pore_pressure`](Self::pore_pressure) a stress \[MPa\]. Between cells all
+/// are interpolated as by [`SeasStation`](super::SeasStation).
 ///
 /// By default every step shown is a row. With [`at_intervals`](Self::at_intervals) rows are dense in events and sparse
 /// between them.
@@ -129,6 +129,14 @@ impl<W: io::Write> SeasProfile<W> {
         self
     }
 
+    /// Records the pore pressure in the place of slip \[MPa\]: the change by the [fields](crate::Contact::with_field) of the
+    /// contact.
+    #[must_use]
+    pub fn pore_pressure(mut self) -> Self {
+        self.quantity = Quantity::PorePressure;
+        self
+    }
+
     /// Records component 3 of slip or shear stress on a plane, down dip: the opposite of the second component of the
     /// contact. By default the first one is recorded, along strike.
     #[must_use]
@@ -202,10 +210,7 @@ impl<W: io::Write> SeasProfile<W> {
             (true, _) => "x3",
         };
         let (name, quantity) = self.quantity.column();
-        let name = match (
-            plane && self.quantity != Quantity::NormalStress,
-            self.component,
-        ) {
+        let name = match (plane && self.quantity.is_vector(), self.component) {
             (false, _) => name.to_owned(),
             (true, component) => format!("{name}_{}", component + 2),
         };

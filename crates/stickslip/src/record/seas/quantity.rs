@@ -1,4 +1,4 @@
-//! Slip and stresses of a profile.
+//! Slip, stresses and pore pressure of a profile.
 
 use crate::ContactView;
 
@@ -11,15 +11,22 @@ pub(super) enum Quantity {
     Slip,
     ShearStress,
     NormalStress,
+    PorePressure,
 }
 
 impl Quantity {
+    /// Whether it has components on a plane.
+    pub(super) fn is_vector(self) -> bool {
+        matches!(self, Self::Slip | Self::ShearStress)
+    }
+
     /// The name of a column, and its quantity with its unit.
     pub(super) fn column(self) -> (&'static str, &'static str) {
         match self {
             Self::Slip => ("slip", "Slip (m)"),
             Self::ShearStress => ("shear_stress", "Shear stress (MPa)"),
             Self::NormalStress => ("normal_stress", "Normal stress (MPa)"),
+            Self::PorePressure => ("pore_pressure", "Pore pressure (MPa)"),
         }
     }
 
@@ -34,6 +41,7 @@ impl Quantity {
             Self::Slip => contact.slip_vector(k),
             Self::ShearStress => MPA * contact.traction(k),
             Self::NormalStress => return MPA * contact.normal_stress(k),
+            Self::PorePressure => return MPA * contact.pore_pressure(k),
         };
         match component {
             None => vector.sum(),

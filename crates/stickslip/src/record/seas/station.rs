@@ -6,7 +6,8 @@ use std::io;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::columns::columns;
+use super::columns::{Chosen, columns};
+use super::fluid::fluid;
 use super::place::{Map, Place};
 use super::{Rows, SeasHeader, SeasPoint, log_rate};
 #[cfg(doc)]
@@ -25,6 +26,8 @@ const PA: f64 = 1e-6;
 /// | `slip_rate` | `slip_rate_2 slip_rate_3` | log10 of m/s, of the modulus; -20 at rest |
 /// | `shear_stress` | `shear_stress_2 shear_stress_3` | MPa |
 /// | `normal_stress`, if chosen | likewise | MPa, positive in compression |
+/// | `pore_pressure`, if chosen | likewise | MPa |
+/// | `darcy_vel`, with it | `darcy_vel_2 darcy_vel_3` | m/s |
 /// | `state` | `state` | log10 of theta in s |
 ///
 /// A station between the centres of cells is interpolated linearly, on a plane bilinearly: slip, slip rate, stresses,
@@ -63,7 +66,7 @@ pub struct SeasStation<W: io::Write> {
     place: Place,
     /// The parts of the components of slip along strike and up dip.
     directions: Vec<[f64; 2]>,
-    normal_stress: bool,
+    chosen: Chosen,
     log10_state: Box<dyn Fn(f64) -> f64 + Send + Sync>,
     begun: bool,
 }
@@ -122,7 +125,7 @@ impl<W: io::Write> SeasStation<W> {
             point,
             place,
             directions: [[1.0, 0.0], [0.0, 1.0]].into_iter().take(C).collect(),
-            normal_stress: false,
+            chosen: Chosen::default(),
             log10_state: Box::new(|alpha| alpha / std::f64::consts::LN_10),
             begun: false,
         }
@@ -131,7 +134,16 @@ impl<W: io::Write> SeasStation<W> {
     /// Adds the normal stress, as in BP3.
     #[must_use]
     pub fn with_normal_stress(mut self) -> Self {
-        self.normal_stress = true;
+        self.chosen.normal_stress = true;
+        self
+    }
+
+    /// Adds the pore pressure and the Darcy velocity of the [fields](crate::Contact::with_field), as in BP6 and BP8; the
+    /// velocity is no number if no field shows it, as [`Diffusion`](crate::fields::Diffusion) does.
+    #[must_use]
+    #[doc(alias("darcy velocity"))]
+    pub fn with_pore_fluid(mut self) -> Self {
+        self.chosen.pore_fluid = true;
         self
     }
 
@@ -189,12 +201,15 @@ impl<W: io::Write> SeasStation<W> {
         let count = self.components();
         let vectors = [slip, rate.map(log_rate), stress.map(|stress| PA * stress)];
         let vectors = vectors.into_iter().flat_map(|v| v.into_iter().take(count));
-        let normal = self.normal_stress.then(|| {
+        let normal = self.chosen.normal_stress.then(|| {
             let mean = self.place.mean(|k| contact.normal_stress(k));
             PA * mean
         });
+        let pore_fluid = self.chosen.pore_fluid;
+        let fluid = pore_fluid.then(|| fluid(&contact, (self.point, &self.place)));
         let state = self.state(&contact);
         let numbers = [at.time].into_iter().chain(vectors).chain(normal);
+        let numbers = numbers.chain(fluid.into_iter().flatten());
         self.rows.row(numbers.chain([state]));
         if begins {
             self.rows.write();
@@ -227,7 +242,7 @@ impl<W: io::Write> SeasStation<W> {
     }
 
     fn begin(&mut self) {
-        let columns = columns(self.point, self.normal_stress);
+        let columns = columns(self.point, self.chosen);
         let location = self.point.to_string();
         self.rows.begin(&self.header, &location, &columns);
         self.rows.names(columns.iter().map(|(name, _)| *name));
