@@ -8,6 +8,9 @@ use crate::table::{Format, Table};
 /// The rate of the well at the centre by default, on a plane [m^3/s] and on a line [m^2/s].
 const RATE: [f64; 2] = [1e-3, 8e-6];
 
+/// Times \[s\] and rates.
+type Rows = Vec<(f64, f64)>;
+
 /// A well along strike and down dip \[m\].
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Place {
@@ -28,7 +31,7 @@ pub(super) fn read(arguments: &Arguments) -> Result<Vec<Place>, Failed> {
     };
     let table = Table::read(path, &Format::default())?;
     let rows = rows(&table, line)?;
-    let mut wells: Vec<([f64; 2], Vec<(f64, f64)>)> = Vec::new();
+    let mut wells: Vec<([f64; 2], Rows)> = Vec::new();
     for (row, [x, y, time, rate]) in rows.into_iter().enumerate() {
         let known = wells.iter().position(|(at, _)| *at == [x, y]);
         let known = known.unwrap_or_else(|| {

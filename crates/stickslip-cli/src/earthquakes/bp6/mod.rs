@@ -92,7 +92,7 @@ fn diffusion(cells: &Cells) -> Result<Diffusion, DiffusionError> {
     };
     let line = Line::uniform(cells.ends(), cells.count())?;
     let half = 0.5 * cells.length();
-    let places: &[f64] = if cells.count() % 2 == 0 {
+    let places: &[f64] = if cells.count().is_multiple_of(2) {
         &[-half, half]
     } else {
         &[0.0]
