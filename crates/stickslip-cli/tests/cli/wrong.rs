@@ -153,7 +153,7 @@ const INJECTION: [Wrong; 20] = [
     ("injection --shear-stress 0", "--shear-stress"),
 ];
 
-const OTHERS: [Wrong; 39] = [
+const OTHERS: [Wrong; 41] = [
     ("earthquakes --problem bp9", "--problem"),
     ("earthquakes --cell 333", "--cell 333"),
     ("earthquakes --cell 1e-9", "--cell"),
@@ -211,6 +211,7 @@ const OTHERS: [Wrong; 39] = [
     ("slider3d --degrees nan", "--degrees"),
     ("slider3d --until 2", "--until"),
     ("figures 9.9", "FIGURE"),
+    ("rupture --thermal-pressurization", "--law strong-weakening"),
     ("nothing", "nothing"),
 ];
 
