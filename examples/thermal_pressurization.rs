@@ -4,6 +4,7 @@
 //! escapes: the effective normal stress falls, and the patch slips farther than without.
 
 use std::error::Error;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use stickslip::fields::{PoreFluid, ShearZone, ThermalPressurization};
@@ -65,7 +66,11 @@ fn event(fluid: bool) -> Result<([Points; 3], f64), Box<dyn Error>> {
     motion.run(&Steps::adaptive(1e-6).until(350.0 * YEAR), |at| {
         let contact = at.contact(0);
         if contact.slip_rate(0) < 1e-3 {
-            return;
+            // Before the earthquake, or at its end.
+            return match begin {
+                None => ControlFlow::Continue(()),
+                Some(_) => ControlFlow::Break(()),
+            };
         }
         let slip = contact.slip(0) - *begin.get_or_insert(contact.slip(0));
         let temperature = contact
@@ -80,6 +85,7 @@ fn event(fluid: bool) -> Result<([Points; 3], f64), Box<dyn Error>> {
             curve.push((slip, value));
         }
         last = slip;
+        ControlFlow::Continue(())
     })?;
     Ok((curves, last))
 }
@@ -94,11 +100,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         "pore pressure up to {pressure:.1} MPa of {:.0}, {temperature:.0} K",
         NORMAL_STRESS * 1e-6
     );
-    // The stress drop without fluid is (b - a) sigma ln(V/V_pl) over the stiffness; heat weakens far more.
-    let drop = (LAW.b - LAW.a) * NORMAL_STRESS * (1.0 / PLATE).ln();
-    assert!((without / (drop / STIFFNESS) - 1.0).abs() < 0.5 && with > 1.5 * without);
+    assert!(with > 1.5 * without);
     // Heat drives the pressure, and less of it the more the fault weakens: below the normal stress.
     assert!(pressure > 0.5 * NORMAL_STRESS * 1e-6 && pressure < NORMAL_STRESS * 1e-6);
+
+    // No hotter than with all work of friction within the shear zone.
+    let adiabatic = 0.6 * NORMAL_STRESS * with / (2.7e6 * 0.01 * std::f64::consts::TAU.sqrt());
+    assert!(temperature < 483.15 + adiabatic);
 
     let output = Output::create(Path::new("out/thermal_pressurization"), &[])?;
     let [dry_stress, ..] = dry;

@@ -2,9 +2,9 @@
 
 use super::Diffusion;
 use super::conjugate_gradients::ROUGH;
-use super::exchange::{Pressures, Stage};
+use super::exchange::Pressures;
 use super::tr_bdf2::{FIRST, HALF, error_weights};
-use super::work::Work;
+use super::work::{Stage, Work};
 use crate::FieldError;
 
 impl Diffusion {

@@ -4,7 +4,7 @@ use super::Diffusion;
 use super::memory::{Places, TIME};
 use super::system::Conductances;
 use super::well::BoreOfCell;
-use super::work::{BoreWork, Work};
+use super::work::{BoreWork, Stage, Work};
 
 /// A memory split into what its pressures are.
 #[derive(Clone, Copy)]
@@ -147,11 +147,4 @@ impl Diffusion {
             *rates = injection.rates.over(from[TIME], dt);
         }
     }
-}
-
-/// The right-hand side of a stage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stage {
-    First,
-    Second,
 }

@@ -2,9 +2,32 @@
 
 use super::Diffusion;
 use super::memory::TIME;
+use super::system::{Conductances, System};
 use super::tr_bdf2::GAMMA;
-use super::work::Work;
+use super::work::{BoreWork, Work};
 use crate::{FaultField, FaultRates, FieldError, FieldSizes, Reading};
+
+impl Diffusion {
+    /// Scratch of the size of its cells.
+    pub(super) fn work(&self) -> Work {
+        let count = self.cells.count();
+        let vector = || vec![0.0; count];
+        Work {
+            own: Conductances {
+                mobility: vector(),
+                faces: vec![0.0; self.cells.faces()],
+                connected: false,
+            },
+            system: System::new(&self.cells, &self.sides),
+            flow: vector(),
+            first: vector(),
+            second: vector(),
+            kept: vec![0.0; if self.fourth_order { count } else { 0 }],
+            rates: vec![[0.0; 2]; self.injections.len()],
+            bores: vec![BoreWork::default(); self.bores().count()],
+        }
+    }
+}
 
 impl FaultField for Diffusion {
     fn sizes(&self) -> FieldSizes {
@@ -48,7 +71,7 @@ impl FaultField for Diffusion {
         dt: f64,
         to: &mut [f64],
     ) -> Result<(), FieldError> {
-        let mut work = self.pool.take(|| Work::new(self));
+        let mut work = self.pool.take(|| self.work());
         let stepped = self.step(from, source, dt, to, &mut work);
         self.pool.give_back(work);
         stepped
@@ -71,7 +94,7 @@ impl FaultField for Diffusion {
         pressures: &mut [Vec<f64>],
         to: &mut [f64],
     ) -> Result<(), FieldError> {
-        let mut work = self.pool.take(|| Work::new(self));
+        let mut work = self.pool.take(|| self.work());
         let stepped = self.step(from, [&[], &[]], dt, to, &mut work);
         let cells = &from[self.places.pressure.clone()];
         let moves = dt > 0.0;
@@ -99,7 +122,7 @@ impl FaultField for Diffusion {
         if dt <= 0.0 {
             return;
         }
-        let mut work = self.pool.take(|| Work::new(self));
+        let mut work = self.pool.take(|| self.work());
         // An estimate that is not finite belongs to a step that `advance` refuses.
         let estimated = self.estimate(from, source, dt, to, &mut work);
         for (error, &cell) in pressure_error.iter_mut().zip(&self.cell_of) {

@@ -2,6 +2,7 @@
 
 mod cells;
 mod conjugate_gradients;
+mod couplings;
 mod dilatancy;
 mod error;
 mod estimate;
@@ -11,6 +12,7 @@ mod field;
 mod fourth_order;
 mod gaussian;
 mod hydraulics;
+mod injection;
 mod leak_off;
 mod line;
 mod line_solver;
@@ -27,6 +29,7 @@ mod rate_history;
 mod rate_table;
 mod readings;
 mod side;
+mod sides;
 mod step;
 mod system;
 mod tr_bdf2;

@@ -110,7 +110,7 @@ impl Diffusion {
 
     /// The Darcy velocity: the mean over both faces of a cell.
     fn write_velocity(&self, direction: usize, memory: &[f64], values: &mut [f64]) {
-        let mut work = self.pool.take(|| super::work::Work::new(self));
+        let mut work = self.pool.take(|| self.work());
         let now = self.current(memory, &mut work.own);
         let at = Pressures::of(&self.places, memory).cells;
         let rates = &mut work.flow;

@@ -2,11 +2,11 @@
 
 use super::Diffusion;
 use super::conjugate_gradients::EXACT;
-use super::exchange::{Pressures, Stage};
+use super::exchange::Pressures;
 use super::memory::{DRAINED, LEAKED, TIME};
 use super::system::{Conductances, System};
 use super::tr_bdf2::{FIRST, GAMMA, HALF, WEIGHTS};
-use super::work::{BoreWork, Work};
+use super::work::{BoreWork, Stage, Work};
 use crate::FieldError;
 
 impl Diffusion {

@@ -1,7 +1,5 @@
 //! Scratch of a step.
 
-use super::Diffusion;
-use super::exchange::Stage;
 use super::system::{Conductances, System};
 
 /// The numbers of a step that no memory keeps.
@@ -38,25 +36,6 @@ pub(super) struct BoreWork {
 }
 
 impl Work {
-    pub(super) fn new(field: &Diffusion) -> Self {
-        let count = field.cells.count();
-        let vector = || vec![0.0; count];
-        Self {
-            own: Conductances {
-                mobility: vec![0.0; count],
-                faces: vec![0.0; field.cells.faces()],
-                connected: false,
-            },
-            system: System::new(&field.cells, &field.sides),
-            flow: vector(),
-            first: vector(),
-            second: vector(),
-            kept: vec![0.0; if field.fourth_order { count } else { 0 }],
-            rates: vec![[0.0; 2]; field.injections.len()],
-            bores: vec![BoreWork::default(); field.bores().count()],
-        }
-    }
-
     /// The vector of a stage: its right-hand side, then its solution.
     pub(super) fn side(&mut self, stage: Stage) -> &mut [f64] {
         match stage {
@@ -64,4 +43,11 @@ impl Work {
             Stage::Second => &mut self.second,
         }
     }
+}
+
+/// The right-hand side of a stage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stage {
+    First,
+    Second,
 }
