@@ -3,7 +3,7 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use stickslip::fields::{Diffusion as Fluid, DiffusionError, Hydraulics, PerCell};
+use stickslip::fields::{Diffusion as Fluid, DiffusionError, Hydraulics, PerVertex};
 
 use super::cell_values::{CellValues, FINITE, NOT_NEGATIVE, POSITIVE};
 use super::sides::Sides;
@@ -140,7 +140,7 @@ impl Diffusion {
     /// The field of a fault.
     pub(super) fn on(&self, name: &str, cells: &Cells) -> PyResult<Fluid> {
         let layout = cells.layout;
-        let of = |values: &CellValues, what: &str| -> PyResult<PerCell> {
+        let of = |values: &CellValues, what: &str| -> PyResult<PerVertex> {
             values.on(&format!("{name}.{what}"), layout)
         };
         let fluid_cells = cells.for_fluid(name)?;
