@@ -13,7 +13,9 @@ impl<const C: usize> DiscreteContact<C> {
         rate: impl Fn(&Self, usize) -> f64,
         from: Option<(&ContactState<C>, f64)>,
     ) {
-        let Some(mut fields) = self.fields.take() else {
+        // Fields without sources look at nothing.
+        let fed = self.fields.as_ref().is_some_and(|fields| fields.are_fed());
+        let Some(mut fields) = self.fields.take_if(|_| fed) else {
             return;
         };
         let laws = self.trial.laws();
