@@ -107,7 +107,7 @@ pub(crate) struct Samples {
     origin: f64,
     /// t, V, theta, mu, slip, shear stress, pore pressure, effective normal stress.
     columns: [Vec<f64>; 8],
-    /// What fields show, by name.
+    /// The readings of fields, by name.
     readings: Vec<(&'static str, Vec<f64>)>,
 }
 

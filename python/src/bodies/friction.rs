@@ -167,7 +167,7 @@ pub(super) struct Contact {
     more: More,
 }
 
-/// What a contact may have beside friction.
+/// The options of a contact beside friction.
 pub(super) struct More {
     /// \[Pa\].
     pub(super) cohesion: f64,

@@ -12,9 +12,9 @@ pub(super) struct Record {
     pub(super) scalars: [Vec<f64>; 2],
     /// The pore pressure and the effective normal stress, of a fault with fields.
     pub(super) pressures: Option<[Vec<f64>; 2]>,
-    /// What fields show per cell, by name.
+    /// The readings of fields per cell, by name.
     pub(super) readings: Vec<(&'static str, Vec<f64>)>,
-    /// What they show as a whole, by name.
+    /// The totals of fields, by name.
     pub(super) totals: Vec<(&'static str, Vec<f64>)>,
     pub(super) components: usize,
 }

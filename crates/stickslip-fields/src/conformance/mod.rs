@@ -24,7 +24,7 @@ pub use violation::FieldViolation;
 /// | `pressure_after` | agree with `advance` and `pressure`, to 1e-8 of the pressure |
 ///
 /// Pressures and memories are compared to those that the same field reaches in the same time without sources: the memory
-/// may hold the time, or what a well has injected. Where the pressure changes without any source, its growth is not
+/// may hold the time, or an injected volume. Where the pressure changes without any source, its growth is not
 /// checked.
 ///
 /// Its samples are fixed. A field of a few vertices takes milliseconds.

@@ -1,4 +1,4 @@
-//! What is coupled with diffusion: leak-off, and permeability that slip raises.
+//! Leak-off, and permeability that slip raises, as options of diffusion.
 
 use super::error::{finite, not_negative, positive};
 use super::leak_off::Leak;

@@ -146,7 +146,7 @@ impl Level {
         }
     }
 
-    /// What the neighbours of a cell add to its side.
+    /// The sum of the neighbours of a cell, times their conductances.
     fn neighbours(&self, cell: usize) -> f64 {
         let columns = self.columns;
         let mut sum = 0.0;

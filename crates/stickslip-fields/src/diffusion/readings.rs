@@ -1,4 +1,4 @@
-//! What diffusion shows beside its pressure.
+//! The readings and volumes of diffusion.
 
 use super::Diffusion;
 use super::exchange::Pressures;

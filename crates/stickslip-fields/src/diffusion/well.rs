@@ -26,7 +26,7 @@ pub(super) struct Bore {
     pub index: Index,
 }
 
-/// What the index of a well follows from.
+/// The radius of a well, or its index.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Index {
     Radius(f64),

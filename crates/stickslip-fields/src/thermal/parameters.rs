@@ -34,7 +34,7 @@ pub struct PoreFluid {
     pub pressurization_coefficient: PerVertex,
 }
 
-/// What a parameter is called, and its range.
+/// The name and the range of a parameter.
 struct Range {
     what: &'static str,
     unit: &'static str,

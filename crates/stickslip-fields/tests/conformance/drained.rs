@@ -2,7 +2,7 @@
 
 use stickslip_fields::{FaultField, FaultRates, FieldError, FieldSizes, Reading};
 
-/// What is wrong with the field.
+/// The fault of a field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Flaw {
     None,

@@ -33,7 +33,7 @@ const STATIONS: [[f64; 2]; 9] = [
 /// The slip rate of an event [m/s]: this problem has none.
 const EVENT: f64 = 1e-3;
 
-/// What a run has shown.
+/// The results of a run.
 #[derive(Default)]
 struct Shown {
     /// The pressures at both places of the check \[MPa\].
