@@ -6,6 +6,7 @@ mod hint;
 mod local;
 mod open_walls;
 mod place;
+mod retry;
 mod scene;
 mod scene_hint;
 mod shear_along_normal;
