@@ -20,7 +20,8 @@ pub struct FaultRates<'a> {
     pub time: f64,
     /// The slip rate `V` [m/s].
     pub slip_rate: &'a [f64],
-    /// The frictional strength, `c + mu (sigma_n - p)` \[Pa\]: with the slip rate, the power that becomes heat.
+    /// The frictional stress, `c + mu (sigma_n - p)` where it slides, at most that at rest \[Pa\]: with the slip rate, the
+    /// power that becomes heat.
     pub friction: &'a [f64],
     /// The rate of the state, `alpha'`, in the state law's own variable [1/s]; 0 without a state.
     pub state_rate: &'a [f64],

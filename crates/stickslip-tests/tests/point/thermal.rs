@@ -1,6 +1,7 @@
 //! Thermal pressurization of one patch of a fault: recurrence, orders, and a temperature.
 
-use nalgebra::{Matrix1, Vector1};
+use nalgebra::{DMatrix, Matrix1, Vector1};
+use stickslip::bie::{Cells, Fault, FaultGeometry, Medium, Mode};
 use stickslip::fields::{PoreFluid, ShearZone, ThermalPressurization};
 use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
 use stickslip::integrate::Stepper;
@@ -29,7 +30,7 @@ const PLATE: f64 = 1e-9;
 const YEAR: f64 = 31_557_600.0;
 
 /// A shear zone of this half width [m].
-fn pressurized(half_width: f64) -> Outcome<ThermalPressurization> {
+fn pressurized(vertices: usize, half_width: f64) -> Outcome<ThermalPressurization> {
     let zone = ShearZone {
         half_width: half_width.into(),
         volumetric_heat_capacity: 2.7e6.into(),
@@ -40,7 +41,7 @@ fn pressurized(half_width: f64) -> Outcome<ThermalPressurization> {
         hydraulic_diffusivity: 1e-4.into(),
         pressurization_coefficient: 1e5.into(),
     };
-    Ok(ThermalPressurization::new(1, zone, fluid)?)
+    Ok(ThermalPressurization::new(vertices, zone, fluid)?)
 }
 
 /// The patch that begins at a slip rate and a state.
@@ -51,7 +52,7 @@ fn patch(half_width: f64, slip_rate: f64, theta: f64) -> Outcome<Scene<Matrix1<f
     let contact = Contact::new(BoundaryPart::point(1.0), LAW, NORMAL_STRESS)
         .with_state(AGING, state)
         .with_shear_stress(Vector1::new(stress))
-        .with_field(pressurized(half_width)?);
+        .with_field(pressurized(1, half_width)?);
     Ok(Scene::new(Matrix1::new(STIFFNESS))
         .with_viscosity(Matrix1::new(DAMPING))
         .with_contact(contact)
@@ -183,6 +184,42 @@ fn field_and_mechanics_together_are_of_second_order() -> Outcome {
             errors.push(error(&window.implicit(parts)?, &expected));
         }
         assert!(orders(&errors).iter().all(|&own| own > 1.9), "{errors:?}");
+    }
+    Ok(())
+}
+
+/// Cells that are solved many at a time see the heat of each by itself: 70 patches that do not see one another.
+#[test]
+fn many_cells_heat_as_each_by_itself() -> Outcome {
+    const COUNT: usize = 70;
+    let window = Window::new(1e-2)?;
+    let expected = window.explicit(2)?;
+    let medium = Medium {
+        shear_modulus: 32.04e9,
+        shear_wave_speed: 3464.0,
+    };
+    let cells = Cells::new([0.0, COUNT as f64], COUNT)?;
+    let fault = Fault::whole_space(cells, medium, Mode::Antiplane)?;
+    let state = LogTheta(100.0_f64.ln());
+    let stress = NORMAL_STRESS * LAW.coefficient(1e-3, state) + DAMPING * 1e-3;
+    let part = BoundaryPart::from(FaultGeometry::cells(&fault));
+    let contact = Contact::new(part, LAW, NORMAL_STRESS)
+        .with_state(AGING, state)
+        .with_shear_stress(Vector1::new(stress))
+        .with_field(pressurized(COUNT, 1e-2)?);
+    let each = |value: f64| DMatrix::from_diagonal_element(COUNT, COUNT, value);
+    let scene = Scene::new(each(STIFFNESS))
+        .with_viscosity(each(DAMPING))
+        .with_contact(contact)
+        .with_velocity(vec![Vector1::new(1e-3); COUNT])
+        .with_load_history(|time, load| load.fill(Vector1::new(STIFFNESS * PLATE * time)));
+    let mut motion = RungeKutta::new(scene)?;
+    for (dt, expected) in window.steps.iter().zip(&expected) {
+        (0..2).try_for_each(|_| motion.step(0.5 * dt).map(drop))?;
+        let found = numbers(&motion.snapshot());
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-9 * expected.abs().max(1.0));
+        }
     }
     Ok(())
 }

@@ -25,6 +25,7 @@ mod watch;
 mod weakening;
 
 pub(crate) use discrete_contact::DiscreteContact;
+pub(crate) use fields::Balanced;
 pub(crate) use frictional_node::{Contribution, FrictionalNode};
 pub(crate) use from_body::FromBody;
 pub(crate) use gap::Opening;

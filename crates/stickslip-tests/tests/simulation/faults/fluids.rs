@@ -16,8 +16,8 @@ use stickslip::{
 use super::{AGING, MEDIUM, NORMAL, law};
 use crate::Outcome;
 
-const COUNT: usize = 60;
-const LENGTH: f64 = 3e3;
+const COUNT: usize = 80;
+const LENGTH: f64 = 4e3;
 const RATE: f64 = 1e-9;
 const DAY: f64 = 86_400.0;
 

@@ -1,8 +1,9 @@
 //! The fields of contacts during a step.
 
 use nalgebra::SVector;
+use stickslip_friction::modulus;
 
-use super::Place;
+use super::{Balanced, Place};
 use crate::contact::{ContactSet, DiscreteContact};
 use crate::{ContactState, StepError, StepState};
 
@@ -46,6 +47,38 @@ impl<const C: usize> DiscreteContact<C> {
             } else {
                 0.0
             };
+        }
+        self.fields = Some(fields);
+    }
+
+    /// Shows the fields slip rates with the friction that balances what viscosity leaves of the forces.
+    pub(super) fn show_balanced(
+        &mut self,
+        (velocity, evolutions): (&[SVector<f64, C>], &[f64]),
+        at: Balanced<'_, C>,
+    ) {
+        let fed = self.fields.as_ref().is_some_and(|fields| fields.are_fed());
+        let Some(mut fields) = self.fields.take_if(|_| fed) else {
+            return;
+        };
+        let shown = &mut fields.shown;
+        shown.normal_stress.copy_from_slice(&self.normal_stress);
+        for (k, &vertex) in self.part.vertices.iter().enumerate() {
+            let rate = modulus(&velocity[vertex]);
+            shown.slip_rate[k] = rate;
+            let (area, borne) = (
+                self.part.weights[k],
+                modulus(&at.forces[vertex]) - at.resistance[k] * rate,
+            );
+            // A copy without an area bears nothing.
+            shown.friction[k] = if area > 0.0 { borne / area } else { 0.0 };
+        }
+        if self.trial.follows_normal_stress() {
+            // Those of a stage are as under the normal stress of its start.
+            let at = [&shown.slip_rate[..], self.trial.states()];
+            self.trial.laws().evolutions(0, at, &mut shown.state_rate);
+        } else if self.trial.has_state() {
+            shown.state_rate.copy_from_slice(evolutions);
         }
         self.fields = Some(fields);
     }

@@ -7,6 +7,8 @@ mod stages;
 
 use std::sync::Arc;
 
+use nalgebra::SVector;
+
 use crate::fields::{FaultField, FaultRates, FieldSizes};
 use crate::{SceneError, StepError};
 
@@ -37,6 +39,8 @@ struct Field {
     stages: Vec<Vec<f64>>,
     /// The pressure at the stages of an explicit method, of a field without sources.
     known: Vec<Vec<f64>>,
+    /// Sums over the stages.
+    sums: [Vec<f64>; 2],
     /// The memory of other sources, for the error of an explicit step.
     missed: Vec<f64>,
 }
@@ -48,6 +52,15 @@ struct Shown {
     friction: Vec<f64>,
     state_rate: Vec<f64>,
     normal_stress: Vec<f64>,
+}
+
+/// The balance of a contact whose vertices slide in all their components, each by itself.
+#[derive(Clone, Copy)]
+pub(crate) struct Balanced<'a, const C: usize> {
+    /// The forces on the vertices of the body \[N\].
+    pub(crate) forces: &'a [SVector<f64, C>],
+    /// The viscous resistance of each vertex of the contact [N s/m].
+    pub(crate) resistance: &'a [f64],
 }
 
 /// The place of a source of a field.
@@ -93,6 +106,7 @@ impl Fields {
                 sources: [vec![0.0; sources], vec![0.0; sources]],
                 stages: Vec::new(),
                 known: Vec::new(),
+                sums: [vec![0.0; sources], vec![0.0; sources]],
             });
         }
         let mut fields = Self {

@@ -2,20 +2,27 @@
 
 use nalgebra::SVector;
 
-use super::{Field, Fields, Place};
+use super::{Balanced, Field, Fields, Place};
 use crate::contact::ContactSet;
 use crate::{StepError, StepState};
 
 impl<const C: usize> ContactSet<C> {
-    /// Finds the sources of a stage of an explicit method, with its states in use.
-    pub(crate) fn find_stage_sources(
+    /// Finds the sources of a stage of an explicit method, with its states in use, from velocities and the rates of all
+    /// states. `balanced` tells the balance of the contact with this number, if it is one for all of its vertices.
+    pub(crate) fn find_stage_sources<'a>(
         &mut self,
         (stage, stages): (usize, usize),
         time: f64,
-        velocity: &[SVector<f64, C>],
+        (velocity, mut evolutions): (&[SVector<f64, C>], &[f64]),
+        balanced: impl Fn(usize) -> Option<Balanced<'a, C>>,
     ) {
-        for contact in &mut self.contacts {
-            contact.show_fields(|own, k| own.slip_rate(k, velocity), None);
+        for (number, contact) in self.contacts.iter_mut().enumerate() {
+            let (own, others) = evolutions.split_at(contact.state_count());
+            evolutions = others;
+            match balanced(number) {
+                Some(balanced) => contact.show_balanced((velocity, own), balanced),
+                None => contact.show_fields(|own, k| own.slip_rate(k, velocity), None),
+            }
             if let Some(fields) = &mut contact.fields {
                 for field in &mut fields.fields {
                     if field.stages.is_empty() {
@@ -159,17 +166,13 @@ impl Field {
         let [first, .., true_end] = &self.stages[..] else {
             return;
         };
-        let stages = &self.stages;
-        let sum = |weights: &[f64], n: usize| -> f64 {
-            let terms = weights.iter().zip(stages);
-            terms
-                .map(|(weight, stage)| weight * (stage[n] - first[n]))
-                .sum()
-        };
+        let [curved, off] = &mut self.sums;
+        add_up(last, &self.stages, curved);
+        add_up(difference, &self.stages, off);
         for (n, (begin, end)) in begin.iter_mut().zip(end).enumerate() {
-            let curved = first[n] + 2.0 * sum(last, n) - true_end[n];
+            let curved = first[n] + 2.0 * curved[n] - true_end[n];
             *begin -= 0.5 * curved;
-            *end += 2.0 * sum(difference, n) + 0.5 * curved;
+            *end += 2.0 * off[n] + 0.5 * curved;
         }
     }
 
@@ -180,12 +183,22 @@ impl Field {
             return;
         };
         begin.copy_from_slice(first);
-        for (n, end) in end.iter_mut().enumerate() {
-            let terms = weights.iter().zip(&self.stages);
-            let sum: f64 = terms
-                .map(|(weight, stage)| weight * (stage[n] - first[n]))
-                .sum();
-            *end = first[n] + factor * sum;
+        add_up(weights, &self.stages, end);
+        for (end, first) in end.iter_mut().zip(first) {
+            *end = first + factor * *end;
+        }
+    }
+}
+
+/// The sum of the differences of sources from those of the first stage, with these weights.
+fn add_up(weights: &[f64], stages: &[Vec<f64>], sum: &mut [f64]) {
+    sum.fill(0.0);
+    let Some(first) = stages.first() else {
+        return;
+    };
+    for (weight, stage) in weights.iter().zip(stages) {
+        for ((sum, own), first) in sum.iter_mut().zip(stage).zip(first) {
+            *sum += weight * (own - first);
         }
     }
 }

@@ -139,8 +139,16 @@ impl<const C: usize> RungeKutta<C> {
     /// Finds the sources of the fields on the contacts at a stage, from its slip rates.
     pub(super) fn find_field_sources(&mut self, stage: usize, time: f64) {
         if self.scene.contacts.have_fields() {
-            let velocity = &self.stages.slopes[stage].displacement;
-            (self.scene.contacts).find_stage_sources((stage, STAGES), time, velocity);
+            let slope = &self.stages.slopes[stage];
+            // The slip rate of a soft cell is the mean one of the step.
+            let balances = !self.soft.are_any();
+            let (scalar, forces) = (&self.local.scalar, &self.drive.forces);
+            let balanced = |number: usize| {
+                let own = scalar[number].as_ref().filter(|_| balances)?;
+                Some(own.balanced(forces))
+            };
+            let rates = (&slope.displacement[..], &slope.states[..]);
+            (self.scene.contacts).find_stage_sources((stage, STAGES), time, rates, balanced);
         }
     }
 }

@@ -9,7 +9,7 @@ use stickslip_core::lanes::LANES;
 use stickslip_friction::modulus;
 
 use super::threads::{on_shares, on_two_shares};
-use crate::contact::{ContactSet, DiscreteContact};
+use crate::contact::{Balanced, ContactSet, DiscreteContact};
 
 pub(super) use error::AtEnd;
 
@@ -55,6 +55,14 @@ impl<const C: usize> ScalarContact<C> {
             mobility: vec![0.0; numbers.len()],
             numbers,
         })
+    }
+
+    /// The balance with the forces on the vertices of the body, for the fields of the contact.
+    pub(super) fn balanced<'a>(&'a self, forces: &'a [SVector<f64, C>]) -> Balanced<'a, C> {
+        Balanced {
+            forces,
+            resistance: &self.resistance,
+        }
     }
 
     /// Sets the velocities in balance with the forces on the vertices of the body, and the rates of the states (none without
