@@ -119,8 +119,8 @@ pub struct StepReport {
     /// The contraction of these, without acceleration: how much of a change of the normal stress the next iterate
     /// keeps, the spectral radius as far as the iterates show it. 0 after one iteration.
     pub contraction: f64,
-    /// The number of vertices at which pore pressure exceeds the normal stress, or would leave less than the
-    /// [least one](crate::Contact::with_least_normal_stress), at the end of the step.
+    /// The number of vertices at the [least normal stress](crate::Contact::with_least_normal_stress) of their contact at the
+    /// end of the step, or opened by the pore pressure of fields.
     pub at_least_normal_stress: usize,
 }
 

@@ -286,3 +286,43 @@ fn what_a_fault_cannot_bear_is_refused() -> Outcome {
     assert_eq!(refused, Some(length));
     Ok(())
 }
+
+/// A least normal stress holds, and is counted, without a field, too, in both kinds of steps.
+#[test]
+fn a_least_normal_stress_is_counted() -> Outcome {
+    let least = 0.9 * NORMAL_STRESS;
+    let released: Box<dyn FnOnce(Block) -> Block> = Box::new(move |contact: Block| {
+        contact
+            .with_normal_stress_history(|time, stress| stress[0] = NORMAL_STRESS - 5e4 * time)
+            .with_least_normal_stress(least)
+    });
+    let held: Box<dyn FnOnce(Block) -> Block> = Box::new(move |contact: Block| {
+        contact.with_normal_stress_history(move |time, stress| {
+            stress[0] = (NORMAL_STRESS - 5e4 * time).max(least);
+        })
+    });
+    let counted = |time: f64| usize::from(NORMAL_STRESS - 5e4 * time <= least);
+    let steps = Steps::constant(END / 400.0).until(END);
+    let (mut explicit, mut other) = (
+        RungeKutta::new(scene(vec![released]))?,
+        RungeKutta::new(scene(vec![held]))?,
+    );
+    explicit.run(&steps, |at| {
+        assert_eq!(at.report.at_least_normal_stress, counted(at.time));
+        assert!(at.contact(0).effective_normal_stress(0) >= least);
+    })?;
+    other.run(&steps, |_| ())?;
+    let [a, b] = [&explicit, &other].map(|own| own.snapshot().displacement[0]);
+    assert_eq!(a, b);
+    let released: Box<dyn FnOnce(Block) -> Block> = Box::new(move |contact: Block| {
+        contact
+            .with_normal_stress_history(|time, stress| stress[0] = NORMAL_STRESS - 5e4 * time)
+            .with_least_normal_stress(least)
+    });
+    let released = scene(vec![released]);
+    let mut implicit = Simulation::new(released, GeneralizedAlpha::default(), Point)?;
+    implicit.run(&steps, |at| {
+        assert_eq!(at.report.at_least_normal_stress, counted(at.time));
+    })?;
+    Ok(())
+}

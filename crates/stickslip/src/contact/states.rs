@@ -137,10 +137,9 @@ impl<const C: usize> ContactSet<C> {
         })
     }
 
-    /// Writes the quantities in use at the end of a step, and returns the number of vertices that bear no more pore
-    /// pressure.
-    pub(crate) fn accept(&self, into: &mut [ContactState<C>]) -> usize {
-        let at_least = self.accept_fields(into);
+    /// Writes the quantities in use at the end of a step.
+    pub(crate) fn accept(&self, into: &mut [ContactState<C>]) {
+        self.accept_fields(into);
         for (contact, into) in self.contacts.iter().zip(into) {
             for (k, state) in into.states.iter_mut().enumerate() {
                 *state = contact.trial.state(k);
@@ -155,7 +154,6 @@ impl<const C: usize> ContactSet<C> {
                 into.body_stress.copy_from_slice(&body.unrelaxed);
             }
         }
-        at_least
     }
 
     /// Freezes the states of an accepted step, under the normal stresses of a time \[s\].

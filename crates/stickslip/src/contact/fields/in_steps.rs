@@ -136,9 +136,8 @@ impl<const C: usize> ContactSet<C> {
         Ok(())
     }
 
-    /// Writes memories and pressures of the end of a step, and returns the number of vertices that bear no more pressure.
-    pub(crate) fn accept_fields(&self, into: &mut [ContactState<C>]) -> usize {
-        let mut count = 0;
+    /// Writes memories and pressures of the end of a step.
+    pub(crate) fn accept_fields(&self, into: &mut [ContactState<C>]) {
         for (contact, into) in self.contacts.iter().zip(into) {
             let Some(fields) = &contact.fields else {
                 continue;
@@ -148,8 +147,21 @@ impl<const C: usize> ContactSet<C> {
             }
             into.pore_pressure.copy_from_slice(&fields.pressure);
             into.excess_pressure.copy_from_slice(&fields.excess);
-            count += fields.excess.iter().filter(|&&excess| excess > 0.0).count();
         }
-        count
     }
+
+    /// The number of vertices at the least normal stress of their contact, or opened by pore pressure.
+    pub(crate) fn at_least_normal_stress(&self) -> usize {
+        let contacts = self.contacts.iter();
+        let counts = contacts.map(|contact| match (contact.strength.least, &contact.fields) {
+            (Some(least), _) => count(&contact.normal_stress, |stress| stress <= least),
+            (None, Some(fields)) => count(&fields.excess, |excess| excess > 0.0),
+            (None, None) => 0,
+        });
+        counts.sum()
+    }
+}
+
+fn count(values: &[f64], counts: impl Fn(f64) -> bool) -> usize {
+    values.iter().filter(|&&value| counts(value)).count()
 }

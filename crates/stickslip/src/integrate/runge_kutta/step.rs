@@ -119,7 +119,7 @@ impl<const C: usize> RungeKutta<C> {
             }
             at.normal_stress.copy_from_slice(&contact.normal_stress);
         }
-        let at_least = self.scene.contacts.accept_fields(&mut self.now.contacts);
+        self.scene.contacts.accept_fields(&mut self.now.contacts);
         self.now.clock = next;
         self.now.last_step = dt;
         (self.now.displacement).copy_from_slice(&end.displacement);
@@ -128,7 +128,7 @@ impl<const C: usize> RungeKutta<C> {
         self.now.report = StepReport {
             coupling_iterations: STAGES - 1,
             solver_iterations: STAGES - 1,
-            at_least_normal_stress: at_least,
+            at_least_normal_stress: self.scene.contacts.at_least_normal_stress(),
             ..StepReport::default()
         };
         self.drive.balanced = Some(next);
