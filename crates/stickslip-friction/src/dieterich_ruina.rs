@@ -185,7 +185,12 @@ impl FrictionLaw for DieterichRuina {
         } = *self;
         // drive/a + ln(Vm/V0): one difference, so that nearly balanced terms cancel exactly.
         let pull = (drive - self.coefficient_at_reference(state)) / a;
-        let x = pull + (reference_velocity * (viscosity / a)).ln();
+        let scaled = reference_velocity * (viscosity / a);
+        let x = if scaled.is_normal() {
+            pull + scaled.ln()
+        } else {
+            pull + reference_velocity.ln() + ln_ratio(viscosity, a)
+        };
         // Far below 0 omega is exp(x), which underflows before the rate does.
         let rate = if x < -700.0 {
             reference_velocity * pull.exp()

@@ -56,16 +56,16 @@ struct Problems<'a, S> {
     drive: &'a [f64],
     states: &'a [S],
     slip_rates: &'a mut [f64],
-    /// Whether a number was not normal, `c sinh(s)` included: the node is to be computed by itself.
+    /// Whether a number was not normal, `c sinh(s)` included: the rate is NaN, and the node is to be computed by itself.
     has_others: &'a mut bool,
 }
 
-/// Whether a node is one of the pass.
+/// Whether a node is one of the pass: `y = c sinh(s)` below the normal numbers has lost digits that its rate has.
 #[inline(always)]
-fn is_normal(viscosity: f64, drive: f64, slip_rate: f64) -> bool {
+fn is_normal(viscosity: f64, drive: f64, y: f64, slip_rate: f64) -> bool {
     (f64::MIN_POSITIVE..=f64::MAX).contains(&viscosity)
         & (drive <= f64::MAX)
-        & ((slip_rate > 0.0) | (drive == 0.0))
+        & ((y >= f64::MIN_POSITIVE) | (drive == 0.0))
         & (slip_rate <= f64::MAX)
 }
 
@@ -93,8 +93,11 @@ impl<S: StateVariable> Pass for Problems<'_, S> {
         let mut rates = balance(&t, &l);
         let mut all = true;
         for k in 0..LANES {
-            rates[k] *= a[k] / viscosity[k];
-            all &= is_normal(viscosity[k], drive[k], rates[k]);
+            let y = rates[k];
+            let rate = y * (a[k] / viscosity[k]);
+            let normal = is_normal(viscosity[k], drive[k], y, rate);
+            rates[k] = if normal { rate } else { f64::NAN };
+            all &= normal;
         }
         *self.has_others |= !all;
         self.slip_rates[at..at + count].copy_from_slice(&rates[..count]);
@@ -169,7 +172,7 @@ impl<S: StateVariable> SlipRates<S> for ManyNodes {
         run(states.len(), pass);
         let nodes = viscosity.iter().zip(drive).zip(states).enumerate();
         for (k, ((&viscosity, &drive), &state)) in nodes.filter(|_| has_others) {
-            if !is_normal(viscosity, drive, slip_rates[k]) {
+            if slip_rates[k].is_nan() {
                 let law = self.laws.get(first + k).unwrap_or(&self.laws[0]);
                 slip_rates[k] = law.slip_rate(viscosity, drive, LogTheta(state.value()));
             }

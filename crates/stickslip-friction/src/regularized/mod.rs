@@ -222,7 +222,7 @@ impl FrictionLaw for RegularizedDieterichRuina {
         }
         let pull = drive / self.a;
         let ln_cutoff = self.ln_cutoff_rate(state);
-        let ln_k = ln_cutoff + (2.0 * (viscosity / self.a)).ln();
+        let ln_k = ln_cutoff + ln_ratio(viscosity, 0.5 * self.a);
         if pull == 0.0 || ln_k > 700.0 || pull == f64::INFINITY {
             return free;
         }

@@ -122,6 +122,26 @@ proptest! {
     }
 }
 
+/// The viscous stress `1.9e-317` has lost digits, the slip rate 1.5e-208 m/s has not.
+#[test]
+fn viscous_stress_below_the_normal_numbers_takes_no_digits() {
+    let law = RegularizedDieterichRuina {
+        a: 0.009231180850783735,
+        b: 0.001,
+        reference_friction: 0.6849994361478436,
+        reference_velocity: 1e-4,
+        slip_distance: 1.0,
+    };
+    let (viscosity, drive) = (1.1363306675055052e-111, 4.394548329544111e-175);
+    // mu = a V/(2 Vm) next to rest.
+    let viscous = 0.5 * law.a * (-law.ln_cutoff_rate(LogTheta(0.0))).exp();
+    let [rate] = slip_rates(&[(law, viscosity, drive, 0.0)])[..] else {
+        unreachable!()
+    };
+    let exact = drive / (viscosity + viscous);
+    assert!((rate / exact - 1.0).abs() < 1e-13, "{rate:e} {exact:e}");
+}
+
 #[test]
 fn slip_rates_take_no_memory() {
     let law = RegularizedDieterichRuina {
