@@ -169,7 +169,7 @@ pub trait FaultField: Send + Sync {
     fn pressure(&self, memory: &[f64], pressure: &mut [f64]);
 
     /// Adds the pore pressure at each vertex after `dt` \[Pa\]; `scratch` is as long as the memory, and may be left as it
-    /// is.
+    /// is but for what [`source`](FaultField::source) reads of it.
     ///
     /// By default it advances the memory in `scratch`.
     ///

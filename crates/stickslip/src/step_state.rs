@@ -122,6 +122,9 @@ pub struct StepReport {
     /// The number of vertices at the [least normal stress](crate::Contact::with_least_normal_stress) of their contact at the
     /// end of the step, or opened by the pore pressure of fields.
     pub at_least_normal_stress: usize,
+    /// The number of vertices at the [largest normal stress](crate::Contact::with_largest_normal_stress) of their contact at
+    /// the end of the step.
+    pub at_largest_normal_stress: usize,
 }
 
 impl<const C: usize> StepState<C> {
@@ -139,6 +142,16 @@ impl<const C: usize> StepState<C> {
 
     /// Copies another step of the same scene, without allocation.
     pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.copy_all_but_memories(other);
+        for (contact, other) in self.contacts.iter_mut().zip(&other.contacts) {
+            for (memory, other) in contact.fields.iter_mut().zip(&other.fields) {
+                memory.copy_from_slice(other);
+            }
+        }
+    }
+
+    /// Copies another step of the same scene, but for the memories of its fields.
+    pub(crate) fn copy_all_but_memories(&mut self, other: &Self) {
         self.clock = other.clock;
         self.displacement.copy_from_slice(&other.displacement);
         self.velocity.copy_from_slice(&other.velocity);
@@ -154,9 +167,6 @@ impl<const C: usize> StepState<C> {
             contact.earlier_normal_stress.copy_from_slice(stress);
             (contact.relaxed_stress).copy_from_slice(&other.relaxed_stress);
             contact.body_stress.copy_from_slice(&other.body_stress);
-            for (memory, other) in contact.fields.iter_mut().zip(&other.fields) {
-                memory.copy_from_slice(other);
-            }
             (contact.pore_pressure).copy_from_slice(&other.pore_pressure);
             (contact.excess_pressure).copy_from_slice(&other.excess_pressure);
         }

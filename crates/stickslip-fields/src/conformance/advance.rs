@@ -75,6 +75,8 @@ fn check_pressure_after(
         .pressure_after(memory, source, dt, &mut found, &mut scratch)
         .map_err(|error| FieldViolation::Refused { dt, error })?;
     finite("pressure_after at vertex", Some(dt), &found)?;
+    // The sources of a stage read what is left there.
+    samples.sources_at(&scratch)?;
     for found in &mut found {
         *found -= 1.0;
     }

@@ -21,7 +21,7 @@ pub use violation::FieldViolation;
 /// | `advance` | write every value, finite; by 0 s leave the memory as it is; by two halves of a step, with the source in their middle, lead to the end of the whole: to 1e-12 if `error` adds nothing and the pressure shows it, else the difference is of third order |
 /// | `advance` without source | not let the pressure that sources have fed grow beyond the range of that of a held source; forget it alike by one long step or two |
 /// | `pressure` | add to what is there; be linear in what sources have fed |
-/// | `pressure_after` | agree with `advance` and `pressure`, to 1e-8 of the pressure |
+/// | `pressure_after` | agree with `advance` and `pressure`, to 1e-8 of the pressure; write what `source` reads of the memory |
 ///
 /// Pressures and memories are compared to those that the same field reaches in the same time without sources: the memory
 /// may hold the time, or an injected volume. Where the pressure changes without any source, its growth is not

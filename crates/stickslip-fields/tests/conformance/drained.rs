@@ -17,6 +17,7 @@ pub(crate) enum Flaw {
     Assigned,
     Squared,
     OtherPressure,
+    ScratchUnwritten,
     Growth,
     Ringing,
     BackwardEuler,
@@ -72,11 +73,14 @@ impl FaultField for Drained {
         }
     }
 
-    fn source(&self, at: &FaultRates<'_>, _memory: &[f64], source: &mut [f64]) {
+    fn source(&self, at: &FaultRates<'_>, memory: &[f64], source: &mut [f64]) {
         for k in 0..self.written(Flaw::SourceUnwritten) {
             source[k] = at.slip_rate[k] * at.friction[k] / 27.0;
             if self.0 == Flaw::SourceAtRest {
                 source[k] *= at.slip_rate[k].ln();
+            }
+            if self.0 == Flaw::ScratchUnwritten {
+                source[k] += 0.0 * memory[k];
             }
         }
     }
@@ -137,6 +141,11 @@ impl FaultField for Drained {
             1.001
         } else {
             1.0
+        };
+        let mut own = scratch.to_vec();
+        let scratch = match self.0 {
+            Flaw::ScratchUnwritten => &mut own[..],
+            _ => scratch,
         };
         self.advance(from, source, dt, scratch)?;
         for (pressure, scratch) in pressure.iter_mut().zip(scratch) {

@@ -62,6 +62,7 @@ fn each_flaw_is_found() {
             "pressure_after at vertex",
             "that of the advanced memory,",
         ),
+        (Flaw::ScratchUnwritten, "source", number),
         (Flaw::Growth, free, growth),
         (Flaw::Ringing, free, long),
         (Flaw::Trapezoid, free, long),

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix1, Vector1};
 use stickslip::fields::{FaultField, FaultRates, FieldError, FieldSizes, GivenPressure};
 use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
+use stickslip::integrate::StepReport;
 use stickslip::state::{Dieterich, LogTheta, StateLaw};
 use stickslip::{
     BoundaryPart, Contact, GeneralizedAlpha, Point, RungeKutta, Scene, SceneError, Simulation,
@@ -287,42 +288,75 @@ fn what_a_fault_cannot_bear_is_refused() -> Outcome {
     Ok(())
 }
 
-/// A least normal stress holds, and is counted, without a field, too, in both kinds of steps.
+/// Limits of the normal stress hold, and are counted, without a field, too, in both kinds of steps.
 #[test]
-fn a_least_normal_stress_is_counted() -> Outcome {
-    let least = 0.9 * NORMAL_STRESS;
-    let released: Box<dyn FnOnce(Block) -> Block> = Box::new(move |contact: Block| {
-        contact
-            .with_normal_stress_history(|time, stress| stress[0] = NORMAL_STRESS - 5e4 * time)
-            .with_least_normal_stress(least)
-    });
-    let held: Box<dyn FnOnce(Block) -> Block> = Box::new(move |contact: Block| {
-        contact.with_normal_stress_history(move |time, stress| {
-            stress[0] = (NORMAL_STRESS - 5e4 * time).max(least);
-        })
-    });
-    let counted = |time: f64| usize::from(NORMAL_STRESS - 5e4 * time <= least);
+fn limits_of_the_normal_stress_are_counted() -> Outcome {
+    let of = |sign: f64, change: fn(Block, f64) -> Block| {
+        let limit = (1.0 + 0.1 * sign) * NORMAL_STRESS;
+        let given = move |time: f64| NORMAL_STRESS + sign * 5e4 * time;
+        let limited: Box<dyn FnOnce(Block) -> Block> = Box::new(move |contact: Block| {
+            let contact =
+                contact.with_normal_stress_history(move |time, stress| stress[0] = given(time));
+            change(contact, limit)
+        });
+        let borne = move |time: f64| {
+            if sign < 0.0 {
+                given(time).max(limit)
+            } else {
+                given(time).min(limit)
+            }
+        };
+        (limited, borne, limit)
+    };
     let steps = Steps::constant(END / 400.0).until(END);
-    let (mut explicit, mut other) = (
-        RungeKutta::new(scene(vec![released]))?,
-        RungeKutta::new(scene(vec![held]))?,
-    );
-    explicit.run(&steps, |at| {
-        assert_eq!(at.report.at_least_normal_stress, counted(at.time));
-        assert!(at.contact(0).effective_normal_stress(0) >= least);
-    })?;
-    other.run(&steps, |_| ())?;
-    let [a, b] = [&explicit, &other].map(|own| own.snapshot().displacement[0]);
-    assert_eq!(a, b);
-    let released: Box<dyn FnOnce(Block) -> Block> = Box::new(move |contact: Block| {
+    for (sign, change) in [
+        (
+            -1.0,
+            Block::with_least_normal_stress as fn(Block, f64) -> Block,
+        ),
+        (1.0, Block::with_largest_normal_stress),
+    ] {
+        let (limited, borne, limit) = of(sign, change);
+        let held: Box<dyn FnOnce(Block) -> Block> = Box::new(move |contact: Block| {
+            contact.with_normal_stress_history(move |time, stress| stress[0] = borne(time))
+        });
+        let counted = |at: &StepReport| {
+            if sign < 0.0 {
+                [at.at_least_normal_stress, at.at_largest_normal_stress]
+            } else {
+                [at.at_largest_normal_stress, at.at_least_normal_stress]
+            }
+        };
+        let expected = |time: f64| [usize::from(borne(time) == limit), 0];
+        let (mut explicit, mut other) = (
+            RungeKutta::new(scene(vec![limited]))?,
+            RungeKutta::new(scene(vec![held]))?,
+        );
+        explicit.run(&steps, |at| {
+            assert_eq!(counted(&at.report), expected(at.time));
+            assert_eq!(at.contact(0).effective_normal_stress(0), borne(at.time));
+        })?;
+        assert_eq!(expected(END), [1, 0]);
+        other.run(&steps, |_| ())?;
+        let [a, b] = [&explicit, &other].map(|own| own.snapshot().displacement[0]);
+        assert_eq!(a, b);
+        let (limited, ..) = of(sign, change);
+        let mut implicit =
+            Simulation::new(scene(vec![limited]), GeneralizedAlpha::default(), Point)?;
+        implicit.run(&steps, |at| {
+            assert_eq!(counted(&at.report), expected(at.time))
+        })?;
+    }
+    // A cap below the floor is none.
+    let crossed: Box<dyn FnOnce(Block) -> Block> = Box::new(|contact: Block| {
         contact
-            .with_normal_stress_history(|time, stress| stress[0] = NORMAL_STRESS - 5e4 * time)
-            .with_least_normal_stress(least)
+            .with_least_normal_stress(2e6)
+            .with_largest_normal_stress(1e6)
     });
-    let released = scene(vec![released]);
-    let mut implicit = Simulation::new(released, GeneralizedAlpha::default(), Point)?;
-    implicit.run(&steps, |at| {
-        assert_eq!(at.report.at_least_normal_stress, counted(at.time));
-    })?;
+    let refused = RungeKutta::new(scene(vec![crossed])).err();
+    assert!(
+        matches!(refused, Some(SceneError::Value { value: 1e6, .. })),
+        "{refused:?}"
+    );
     Ok(())
 }

@@ -25,6 +25,9 @@ impl<const C: usize> DiscreteContact<C> {
         if let Some(least) = strength.least {
             fingerprint.bits(&of("least normal stress"), &[least]);
         }
+        if let Some(largest) = strength.largest {
+            fingerprint.bits(&of("largest normal stress"), &[largest]);
+        }
         if strength.source != Source::Given {
             let is_change = usize::from(strength.source == Source::Change);
             fingerprint.count(&of("normal stress from the body"), is_change);

@@ -99,18 +99,7 @@ impl<const C: usize> DiscreteContact<C> {
             .collect();
         let outward: Vec<_> = part.vertices.iter().zip(&outward).map(turned).collect();
         strength.relaxation.check(&strength)?;
-        if let Some(least) = strength.least {
-            let legal = least > 0.0 && least.is_finite();
-            let requirement = "above 0 and finite; allow_opening takes 0";
-            require("least normal stress", requirement, 0, least, legal)?;
-            if strength.source != Source::Given || !bilateral {
-                return Err(SceneError::unsupported(
-                    "Contact::with_least_normal_stress",
-                    "a given normal stress and fixed normal velocities: neither NormalStress::from_body nor \
-                     Contact::with_free_normal",
-                ));
-            }
-        }
+        strength.check_limits(bilateral)?;
         let body = match strength.source {
             Source::Given => None,
             Source::Body | Source::Change => Some(FromBody::new(&strength, bilateral, &part)?),

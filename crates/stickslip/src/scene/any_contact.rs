@@ -155,6 +155,7 @@ impl<const C: usize> Strength<C> {
             history: self.history.map(|history| history.at(places)),
             opens: self.opens,
             least: self.least,
+            largest: self.largest,
             cohesion: places.select("cohesion", self.cohesion)?,
             shear: shear.transpose()?,
             forced: forced.transpose()?,

@@ -134,6 +134,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
                 history: None,
                 opens: false,
                 least: None,
+                largest: None,
                 cohesion: Nodal::Uniform(0.0),
                 shear: None,
                 forced: None,
@@ -265,6 +266,16 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     pub fn with_least_normal_stress(mut self, stress: f64) -> Self {
         self.repeat("least normal stress", self.strength.least.is_some());
         self.strength.least = Some(stress);
+        self
+    }
+
+    /// Sets the largest normal stress that friction sees \[Pa\], above 0 and the least one, likewise; reports count these
+    /// vertices ([`StepReport::at_largest_normal_stress`](crate::integrate::StepReport::at_largest_normal_stress)).
+    #[must_use]
+    #[doc(alias("cap"))]
+    pub fn with_largest_normal_stress(mut self, stress: f64) -> Self {
+        self.repeat("largest normal stress", self.strength.largest.is_some());
+        self.strength.largest = Some(stress);
         self
     }
 

@@ -7,6 +7,8 @@ use stickslip_friction::{ForcedCap, ForcedRupture, Nodal};
 
 use super::normal_stress::Source;
 use super::relaxation::Relaxation;
+use crate::SceneError;
+use crate::checks::require;
 use crate::fields::FaultField;
 use crate::laws::Places;
 
@@ -74,6 +76,8 @@ pub(crate) struct Strength<const C: usize> {
     pub(crate) opens: bool,
     /// The least normal stress that friction sees \[Pa\]; none by default.
     pub(crate) least: Option<f64>,
+    /// The largest normal stress that friction sees \[Pa\]; none by default.
+    pub(crate) largest: Option<f64>,
     pub(crate) cohesion: Nodal<f64>,
     pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
     /// Forced rupture, which weakens friction beside its state.
@@ -98,6 +102,46 @@ impl<const C: usize> Strength<C> {
     /// The normal stress that friction sees of one that is negative in tension \[Pa\].
     #[inline]
     pub(crate) fn borne(&self, stress: f64) -> f64 {
-        stress.max(self.least.unwrap_or(0.0))
+        let least = stress.max(self.least.unwrap_or(0.0));
+        least.min(self.largest.unwrap_or(f64::INFINITY))
+    }
+
+    /// Refuses limits of the normal stress that are none, or of one that the body exerts.
+    pub(crate) fn check_limits(&self, bilateral: bool) -> Result<(), SceneError> {
+        let requirement = "above 0 and finite; allow_opening takes 0";
+        let above = self.least.unwrap_or(0.0);
+        for (what, option, limit, least, requirement) in [
+            (
+                "least normal stress",
+                "Contact::with_least_normal_stress",
+                self.least,
+                0.0,
+                requirement,
+            ),
+            (
+                "largest normal stress",
+                "Contact::with_largest_normal_stress",
+                self.largest,
+                above,
+                "finite, and above 0 and the least normal stress",
+            ),
+        ] {
+            let Some(limit) = limit else { continue };
+            require(
+                what,
+                requirement,
+                0,
+                limit,
+                limit > least && limit.is_finite(),
+            )?;
+            if self.source != Source::Given || !bilateral {
+                return Err(SceneError::unsupported(
+                    option,
+                    "a given normal stress and fixed normal velocities: neither NormalStress::from_body nor \
+                     Contact::with_free_normal",
+                ));
+            }
+        }
+        Ok(())
     }
 }

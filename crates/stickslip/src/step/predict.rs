@@ -145,6 +145,7 @@ impl<const C: usize> Workspace<C> {
             .close_gaps(end, formula.acceleration.new_velocity > 0.0);
         self.contacts.accept(&mut end.contacts);
         end.report.at_least_normal_stress = self.contacts.at_least_normal_stress();
+        end.report.at_largest_normal_stress = self.contacts.at_largest_normal_stress();
         add_slip(&self.contacts, start, end);
         let contacts = self.contacts.contacts.iter().zip(&mut end.contacts);
         for ((contact, now), old) in contacts.zip(&start.contacts) {

@@ -13,7 +13,8 @@ impl<const C: usize> ContactView<'_, C> {
     }
 
     /// The normal stress of vertex number `k` as friction sees it, less the pore pressure \[Pa\]; 0 where it is open, and at
-    /// least the [least one](crate::Contact::with_least_normal_stress).
+    /// least the [least one](crate::Contact::with_least_normal_stress), at most the
+    /// [largest](crate::Contact::with_largest_normal_stress).
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).

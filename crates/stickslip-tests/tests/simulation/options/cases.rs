@@ -122,7 +122,7 @@ const fn refused(
     }
 }
 
-pub(super) const CASES: [Case; 37] = [
+pub(super) const CASES: [Case; 38] = [
     used("with_contact", |s| {
         let wall = Contact::new(&right(s)?, Tresca { coefficient: 0.3 }, 1e2);
         Ok([body(s)?, body(s)?.with_contact(wall)])
@@ -316,6 +316,17 @@ pub(super) const CASES: [Case; 37] = [
         Ok([
             dynamic(s)?.with_contact(released()?),
             dynamic(s)?.with_contact(released()?.with_least_normal_stress(0.5 * NORMAL_STRESS)),
+        ])
+    }),
+    used("with_largest_normal_stress", |s| {
+        let pressed = || {
+            done(contact(s)?.with_normal_stress_history(|time, stress| {
+                stress.fill(NORMAL_STRESS * (1.0 + 10.0 * time))
+            }))
+        };
+        Ok([
+            dynamic(s)?.with_contact(pressed()?),
+            dynamic(s)?.with_contact(pressed()?.with_largest_normal_stress(1.5 * NORMAL_STRESS)),
         ])
     }),
     used("with_normal_stress_effect", |s| {

@@ -112,9 +112,10 @@ impl<const C: usize> ContactSet<C> {
             contact.show_fields(|own, k| own.slip_rate(k, &from.velocity), now);
             if let Some(fields) = &mut contact.fields {
                 fields.dt = dt;
+                fields.start.clone_from(&at.fields);
                 fields.find_sources(from.clock.time(), Place::Start);
                 fields.find_sources(from.clock.time(), Place::End);
-                fields.advance(dt)?;
+                fields.advance_from_start()?;
             }
         }
         Ok(())
@@ -130,7 +131,7 @@ impl<const C: usize> ContactSet<C> {
             contact.show_fields(|own, k| own.slip_rate(k, velocity), None);
             if let Some(fields) = &mut contact.fields {
                 fields.find_sources(time, Place::End);
-                fields.advance(fields.dt)?;
+                fields.advance_from_start()?;
             }
         }
         Ok(())
@@ -150,6 +151,22 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
+    /// Exchanges the memories of the last two states of an explicit method for those of its last stage; none is copied.
+    pub(crate) fn turn_memories(&mut self, last: &mut StepState<C>, now: &mut StepState<C>) {
+        let states = last.contacts.iter_mut().zip(&mut now.contacts);
+        for (contact, (last, now)) in self.contacts.iter_mut().zip(states) {
+            let Some(fields) = &mut contact.fields else {
+                continue;
+            };
+            std::mem::swap(&mut last.fields, &mut now.fields);
+            for (field, memory) in fields.fields.iter_mut().zip(&mut now.fields) {
+                std::mem::swap(&mut field.memory, memory);
+            }
+            now.pore_pressure.copy_from_slice(&fields.pressure);
+            now.excess_pressure.copy_from_slice(&fields.excess);
+        }
+    }
+
     /// The number of vertices at the least normal stress of their contact, or opened by pore pressure.
     pub(crate) fn at_least_normal_stress(&self) -> usize {
         let contacts = self.contacts.iter();
@@ -158,6 +175,17 @@ impl<const C: usize> ContactSet<C> {
             (None, Some(fields)) => count(&fields.excess, |excess| excess > 0.0),
             (None, None) => 0,
         });
+        counts.sum()
+    }
+
+    /// The number of vertices at the largest normal stress of their contact.
+    pub(crate) fn at_largest_normal_stress(&self) -> usize {
+        let limited = self
+            .contacts
+            .iter()
+            .filter_map(|contact| Some((contact, contact.strength.largest?)));
+        let counts = limited
+            .map(|(contact, largest)| count(&contact.normal_stress, |stress| stress >= largest));
         counts.sum()
     }
 }

@@ -16,6 +16,8 @@ use crate::{SceneError, StepError};
 #[derive(Clone)]
 pub(crate) struct Fields {
     fields: Vec<Field>,
+    /// The memories at the start of an implicit step; empty before the first.
+    start: Vec<Vec<f64>>,
     /// The pore pressure in force, of all fields \[Pa\].
     pub(crate) pressure: Vec<f64>,
     /// The pressure beyond the normal stress, or beyond what leaves the least one, taken up by the opening \[Pa\].
@@ -31,7 +33,6 @@ pub(crate) struct Fields {
 #[derive(Clone)]
 struct Field {
     law: Arc<dyn FaultField>,
-    start: Vec<f64>,
     memory: Vec<f64>,
     /// The sources at the start, and at the end.
     sources: [Vec<f64>; 2],
@@ -100,8 +101,7 @@ impl Fields {
             }
             fields.push(Field {
                 law: Arc::clone(law),
-                start: memory.clone(),
-                missed: memory.clone(),
+                missed: Vec::new(),
                 memory,
                 sources: [vec![0.0; sources], vec![0.0; sources]],
                 stages: Vec::new(),
@@ -111,6 +111,7 @@ impl Fields {
         }
         let mut fields = Self {
             fields,
+            start: Vec::new(),
             pressure: zeros(),
             excess: zeros(),
             off: zeros(),
@@ -160,10 +161,17 @@ impl Fields {
     /// Takes the memories of a state, and puts their pressure in force.
     fn hold(&mut self, memories: &[Vec<f64>]) {
         for (field, memory) in self.fields.iter_mut().zip(memories) {
-            field.start.copy_from_slice(memory);
             field.memory.copy_from_slice(memory);
         }
         self.press();
+    }
+
+    /// Advances the memories from the start of an implicit step to its end.
+    fn advance_from_start(&mut self) -> Result<(), StepError> {
+        let start = std::mem::take(&mut self.start);
+        let advanced = self.advance(&start, self.dt);
+        self.start = start;
+        advanced
     }
 
     /// Finds the sources by what is shown.
@@ -193,9 +201,9 @@ impl Fields {
 
     /// Puts the pressure of a stage after `dt` in force, with the sources of both ends; the memories of fields with sources
     /// hold what these read.
-    fn find_pressure(&mut self, dt: f64, stage: usize) -> Result<(), StepError> {
+    fn find_pressure(&mut self, from: &[Vec<f64>], dt: f64, stage: usize) -> Result<(), StepError> {
         self.pressure.fill(0.0);
-        for (number, field) in self.fields.iter_mut().enumerate() {
+        for (number, (field, start)) in self.fields.iter_mut().zip(from).enumerate() {
             if let Some(known) = field.known.get(stage) {
                 for (pressure, known) in self.pressure.iter_mut().zip(known) {
                     *pressure += known;
@@ -204,7 +212,6 @@ impl Fields {
             }
             let Field {
                 law,
-                start,
                 memory,
                 sources: [begin, end],
                 ..
@@ -218,16 +225,15 @@ impl Fields {
         Ok(())
     }
 
-    /// Advances the memories from the start of the step by `dt`, with the sources of both ends.
-    fn advance(&mut self, dt: f64) -> Result<(), StepError> {
-        for (number, field) in self.fields.iter_mut().enumerate() {
+    /// Advances the memories from those of the start of the step by `dt`, with the sources of both ends.
+    fn advance(&mut self, from: &[Vec<f64>], dt: f64) -> Result<(), StepError> {
+        for (number, (field, start)) in self.fields.iter_mut().zip(from).enumerate() {
             // Known ones of an explicit step have advanced with its first stage.
             if !field.known.is_empty() {
                 continue;
             }
             let Field {
                 law,
-                start,
                 memory,
                 sources: [begin, end],
                 ..

@@ -68,25 +68,22 @@ impl<const C: usize> ContactSet<C> {
                 continue;
             };
             if stage == 1 {
-                for (field, memory) in fields.fields.iter_mut().zip(&from.fields) {
-                    field.start.copy_from_slice(memory);
-                }
-                fields.find_known(&nodes[1..], dt)?;
+                fields.find_known(&from.fields, &nodes[1..], dt)?;
             }
             for field in &mut fields.fields {
                 field.combine(weights, 2.0 / node);
             }
             if stage + 1 == nodes.len() {
-                fields.advance(node * dt)?;
+                fields.advance(&from.fields, node * dt)?;
             } else {
-                fields.find_pressure(node * dt, stage - 1)?;
+                fields.find_pressure(&from.fields, node * dt, stage - 1)?;
             }
         }
         Ok(())
     }
 
-    /// Adds the error of the pore pressure, with its sign, to the change of the normal stress at each vertex of the body;
-    /// the memories are those of the end of the step.
+    /// Adds the error of the pore pressure in a step between two states, with its sign, to the change of the normal stress at
+    /// each vertex of the body.
     ///
     /// It has two parts: that of the embedded method, by its `difference` of weights, and that of a source which curves
     /// while the memory relaxes. The linear source has the integral of the step, and so ends by `d = s* - s` beside the
@@ -95,10 +92,11 @@ impl<const C: usize> ContactSet<C> {
     pub(crate) fn add_pressure_error(
         &mut self,
         [difference, last]: [&[f64]; 2],
-        dt: f64,
+        [from, to]: [&StepState<C>; 2],
         change: &mut [f64],
     ) {
-        for contact in &mut self.contacts {
+        let (dt, ends) = (to.last_step, from.contacts.iter().zip(&to.contacts));
+        for (contact, (from, to)) in self.contacts.iter_mut().zip(ends) {
             let Some(fields) = &mut contact.fields else {
                 continue;
             };
@@ -109,9 +107,9 @@ impl<const C: usize> ContactSet<C> {
                 ..
             } = &mut **fields;
             off.fill(0.0);
-            for field in fields {
+            let memories = from.fields.iter().zip(&to.fields);
+            for (field, (start, memory)) in fields.iter_mut().zip(memories) {
                 let [begin, end] = &field.sources;
-                let (start, memory) = (&field.start, &field.memory);
                 (field.law).error(start, [begin, end], dt, memory, off);
                 // A field without sources has no other error.
                 if begin.is_empty() {
@@ -121,9 +119,10 @@ impl<const C: usize> ContactSet<C> {
                 field.add_error(difference, last);
                 let [begin, end] = &field.sources;
                 let missed = &mut field.missed;
-                let found = (field.law).pressure_after(&field.start, [begin, end], dt, off, missed);
+                missed.resize(memory.len(), 0.0);
+                let found = (field.law).pressure_after(start, [begin, end], dt, off, missed);
                 if found.is_err() {
-                    field.law.pressure(&field.memory, off);
+                    field.law.pressure(memory, off);
                 }
             }
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
@@ -135,9 +134,9 @@ impl<const C: usize> ContactSet<C> {
 
 impl Fields {
     /// Advances the fields without sources to the end of a step, with their pressures at the nodes of its later stages.
-    fn find_known(&mut self, nodes: &[f64], dt: f64) -> Result<(), StepError> {
+    fn find_known(&mut self, from: &[Vec<f64>], nodes: &[f64], dt: f64) -> Result<(), StepError> {
         let count = self.pressure.len();
-        for (number, field) in self.fields.iter_mut().enumerate() {
+        for (number, (field, start)) in self.fields.iter_mut().zip(from).enumerate() {
             if !field.sources[0].is_empty() {
                 continue;
             }
@@ -149,7 +148,7 @@ impl Fields {
             }
             let (known, memory) = (&mut field.known, &mut field.memory);
             (field.law)
-                .pressures_within(&field.start, dt, nodes, known, memory)
+                .pressures_within(start, dt, nodes, known, memory)
                 .map_err(|source| StepError::Field {
                     field: number,
                     source,

@@ -136,7 +136,7 @@ impl<const C: usize> RungeKutta<C> {
             clamped.fill(0.0);
         }
         let weights = [&ERROR[..], &WEIGHTS[STAGES - 1]];
-        (self.scene.contacts).add_pressure_error(weights, dt, clamped);
+        (self.scene.contacts).add_pressure_error(weights, [&self.last, &self.now], clamped);
     }
 
     /// Adds what the errors of states and normal stresses do to the friction of a contact, vertex by vertex, and raises the

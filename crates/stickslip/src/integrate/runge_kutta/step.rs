@@ -101,7 +101,8 @@ impl<const C: usize> RungeKutta<C> {
 
     /// Accepts the last stage as the state of a time.
     fn accept(&mut self, next: Clock, dt: f64) {
-        self.last.copy_from(&self.now);
+        self.last.copy_all_but_memories(&self.now);
+        (self.scene.contacts).turn_memories(&mut self.last, &mut self.now);
         let end = &self.stages.motion;
         let mut states = end.states.iter();
         let contacts = self.scene.contacts.contacts.iter();
@@ -119,7 +120,6 @@ impl<const C: usize> RungeKutta<C> {
             }
             at.normal_stress.copy_from_slice(&contact.normal_stress);
         }
-        self.scene.contacts.accept_fields(&mut self.now.contacts);
         self.now.clock = next;
         self.now.last_step = dt;
         (self.now.displacement).copy_from_slice(&end.displacement);
@@ -129,6 +129,7 @@ impl<const C: usize> RungeKutta<C> {
             coupling_iterations: STAGES - 1,
             solver_iterations: STAGES - 1,
             at_least_normal_stress: self.scene.contacts.at_least_normal_stress(),
+            at_largest_normal_stress: self.scene.contacts.at_largest_normal_stress(),
             ..StepReport::default()
         };
         self.drive.balanced = Some(next);
