@@ -7,12 +7,13 @@ use stickslip_solvers::{MeshId, NormalStressChange, Operator};
 
 use crate::loading::{PLATE_RATES, check_rates, relieving};
 use crate::{DippingFault, DippingKernel, Fault, FaultSystem, Kernel, KernelError};
-use crate::{PlaneFault, PlaneKernel, Rectangles, SystemKernel};
+use crate::{PlaneFault, PlaneKernel, Rectangles, SegmentFault, SegmentKernel, SystemKernel};
 
 /// The cells of a fault, each a vertex of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FaultCells {
-    /// The centres \[m\]: along a line, along strike and down dip of a plane, or east, north and up in space.
+    /// The centres \[m\]: along a line, along strike and down dip of a plane, `x` and `z` of segments, or east, north and up
+    /// in space.
     pub centers: Vec<[f64; 3]>,
     /// The areas [m^2], per metre of thickness along a line \[m\].
     pub areas: Vec<f64>,
@@ -29,7 +30,7 @@ pub type LoadHistory<const C: usize> = Box<dyn Fn(f64, &mut [SVector<f64, C>]) +
 ///
 /// Implement cells, stiffness and radiation damping. Override the change of the normal stress for a fault whose slip
 /// changes it, and the plate loading if back slip of all cells is not what loads it. [`Fault`], [`DippingFault`],
-/// [`PlaneFault`] and [`FaultSystem`] are such faults.
+/// [`SegmentFault`], [`PlaneFault`] and [`FaultSystem`] are such faults.
 ///
 /// ```
 /// use nalgebra::{DMatrix, Vector1};
@@ -209,5 +210,35 @@ impl<const C: usize> FaultGeometry<C> for FaultSystem<C> {
 
     fn normal_stress_change(&self) -> Option<Arc<dyn NormalStressChange<C>>> {
         Some(Arc::new(self.normal_stiffness()))
+    }
+}
+
+impl FaultGeometry<1> for SegmentFault {
+    type Kernel = SegmentKernel;
+
+    fn cells(&self) -> FaultCells {
+        let cells = self.cells();
+        FaultCells {
+            centers: cells.map(|[x, z]| [x, z, 0.0]),
+            areas: (0..cells.count()).map(|cell| cells.length(cell)).collect(),
+            dimension: 2,
+            identity: Some(cells.identity()),
+        }
+    }
+
+    fn stiffness(&self) -> SegmentKernel {
+        self.stiffness()
+    }
+
+    fn radiation_damping(&self) -> SegmentKernel {
+        self.radiation_damping()
+    }
+
+    fn normal_stress_change(&self) -> Option<Arc<dyn NormalStressChange<1>>> {
+        let change = self.normal_stiffness();
+        if change.is_zero() {
+            return None;
+        }
+        Some(Arc::new(change))
     }
 }

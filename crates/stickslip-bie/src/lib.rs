@@ -29,6 +29,8 @@
 //! | [`PlaneKernel`], [`PlaneNormalKernel`] | its operators: forces and normal stress due to slip |
 //! | [`FaultSystem`], [`Placement`], [`SystemSection`] | several planes in one half space, each with a strike, a dip and a place |
 //! | [`SystemKernel`], [`SystemNormalKernel`] | its operators: forces and normal stress due to slip on all planes |
+//! | [`Segments`], [`DipProfile`], [`SegmentFault`] | faults along polylines, bent, listric, branched or several, in plane strain or antiplane; stress and displacement off the fault |
+//! | [`SegmentKernel`], [`SegmentNormalKernel`] | its operators: shear stress and normal stress of slip |
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
@@ -51,6 +53,7 @@ mod line_loads;
 mod loading;
 mod overstress;
 mod plane;
+mod segments;
 
 pub use cells::{Cells, Section};
 pub use error::KernelError;
@@ -62,4 +65,8 @@ pub use overstress::Overstress;
 pub use plane::{
     FaultSystem, Placement, PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles,
     RectangularDislocation, SystemKernel, SystemNormalKernel, SystemSection,
+};
+pub use segments::{
+    DipProfile, SegmentFault, SegmentKernel, SegmentNormalKernel, Segments, SegmentsError,
+    SegmentsQuality,
 };

@@ -27,6 +27,7 @@ mod terms;
 mod transform;
 mod whole_space;
 
+pub(crate) use angles::cos_sin;
 pub use dislocation::RectangularDislocation;
 pub use fault::PlaneFault;
 pub use kernel::PlaneKernel;

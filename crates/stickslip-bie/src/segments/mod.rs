@@ -1,0 +1,27 @@
+//! Faults along lines that are not straight: polylines of segments in a plane.
+
+mod down;
+mod error;
+mod fault;
+mod influence;
+mod kernel;
+mod loading;
+mod normal;
+mod off_fault;
+mod orientation;
+mod polylines;
+mod potentials;
+mod quality;
+mod rows;
+mod separation;
+mod surface;
+#[cfg(feature = "csv")]
+mod table;
+
+pub use down::DipProfile;
+pub use error::SegmentsError;
+pub use fault::SegmentFault;
+pub use kernel::SegmentKernel;
+pub use normal::SegmentNormalKernel;
+pub use polylines::Segments;
+pub use quality::SegmentsQuality;
