@@ -32,6 +32,7 @@
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
+//! | [`TriangularDislocation`] | the stress of a triangle that slips, at any point |
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -51,6 +52,7 @@ mod line_loads;
 mod loading;
 mod overstress;
 mod plane;
+mod surface;
 
 pub use cells::{Cells, Section};
 pub use error::KernelError;
@@ -63,3 +65,4 @@ pub use plane::{
     FaultSystem, Placement, PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles,
     RectangularDislocation, SystemKernel, SystemNormalKernel, SystemSection,
 };
+pub use surface::TriangularDislocation;

@@ -28,6 +28,7 @@ mod transform;
 mod whole_space;
 
 pub use dislocation::RectangularDislocation;
+pub(crate) use dislocation::require_poisson_ratio;
 pub use fault::PlaneFault;
 pub use kernel::PlaneKernel;
 pub use normal::PlaneNormalKernel;

@@ -7,6 +7,7 @@ mod loads;
 mod operators;
 mod planes;
 mod refusals;
+mod surfaces;
 mod systems;
 #[cfg(feature = "rayon")]
 mod threads;
