@@ -32,6 +32,8 @@
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
+//! | [`Triangles`], [`CellAxes`], [`SurfaceQuality`] | a surface of triangles: sheets, axes and neighbours of its cells; STL files |
+//! | [`SurfaceError`] | why triangles are no surface |
 //! | [`TriangularDislocation`] | the stress of a triangle that slips, at any point |
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -65,4 +67,4 @@ pub use plane::{
     FaultSystem, Placement, PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles,
     RectangularDislocation, SystemKernel, SystemNormalKernel, SystemSection,
 };
-pub use surface::TriangularDislocation;
+pub use surface::{CellAxes, SurfaceError, SurfaceQuality, Triangles, TriangularDislocation};

@@ -1,6 +1,9 @@
 //! Surfaces of triangles.
 
 mod dislocation;
+mod mesh;
+mod meshes;
+mod stl;
 
 use nalgebra::Vector3;
 
