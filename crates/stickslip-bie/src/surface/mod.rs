@@ -3,6 +3,8 @@
 mod dislocation;
 mod edges;
 mod error;
+#[cfg_attr(not(test), allow(dead_code, reason = "the half space of triangles"))]
+mod harmonic;
 mod mesh;
 
 pub use dislocation::TriangularDislocation;
