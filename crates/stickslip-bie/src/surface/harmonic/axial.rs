@@ -1,38 +1,47 @@
 //! Derivatives of the two potentials of a straight line from a point along its direction.
 
+use super::two::Two;
+
 /// Second and third derivatives of an axisymmetric potential along `t` (the axis), `w` and `h` (transverse).
 pub(super) struct Axial {
-    pub(super) tt: f64,
-    pub(super) tw: f64,
-    pub(super) th: f64,
-    pub(super) ww: f64,
-    pub(super) wh: f64,
-    pub(super) hh: f64,
-    pub(super) ttw: f64,
-    pub(super) tth: f64,
-    pub(super) tww: f64,
-    pub(super) twh: f64,
-    pub(super) thh: f64,
-    pub(super) www: f64,
-    pub(super) wwh: f64,
-    pub(super) whh: f64,
-    pub(super) hhh: f64,
+    pub(super) tt: Two,
+    pub(super) tw: Two,
+    pub(super) th: Two,
+    pub(super) ww: Two,
+    pub(super) wh: Two,
+    pub(super) hh: Two,
+    pub(super) ttw: Two,
+    pub(super) tth: Two,
+    pub(super) tww: Two,
+    pub(super) twh: Two,
+    pub(super) thh: Two,
+    pub(super) www: Two,
+    pub(super) wwh: Two,
+    pub(super) whh: Two,
+    pub(super) hhh: Two,
 }
 
-/// Where a receiver is: distance `r`, coordinate `t` along the axis, transverse coordinates `w`, `h`, and `b = r + t`.
+/// Where a receiver is: distance `r`, coordinate `t` along the axis, transverse coordinates `w`, `h`; `b = r + t`.
 pub(super) struct Place {
-    pub(super) r: f64,
-    pub(super) t: f64,
-    pub(super) w: f64,
-    pub(super) h: f64,
-    pub(super) b: f64,
+    pub(super) r: Two,
+    pub(super) t: Two,
+    pub(super) w: Two,
+    pub(super) h: Two,
+    /// `1/r` and `1/b`.
+    pub(super) inverse: [Two; 2],
 }
 
 impl Axial {
     /// `l = ln(r + t)`, with `dl/dt = 1/r`, and `m = t ln(r + t) - r`, with `dm/dt = l`.
     pub(super) fn pair(place: &Place) -> [Self; 2] {
-        let &Place { r, t, w, h, b } = place;
-        let (i, ib) = (r.recip(), b.recip());
+        let &Place {
+            r,
+            t,
+            w,
+            h,
+            inverse: [i, ib],
+            ..
+        } = place;
         let i3 = i * i * i;
         let i5 = 3.0 * i3 * i * i;
         let first = i * ib;

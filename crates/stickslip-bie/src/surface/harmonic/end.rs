@@ -20,83 +20,91 @@
 
 use super::axial::{Axial, Place};
 use super::in_space::{Direction, InSpace, Jet};
+use super::two::Two;
 
-/// The place of the mirrored receiver from an end of an edge, and what all potentials share.
-struct Both {
-    e: f64,
-    h: f64,
-    r: f64,
-    a: f64,
-    b: f64,
-    q: f64,
-    u: f64,
-    lambda_hh: f64,
+/// The place of the mirrored receiver from the ends of an edge, and what all potentials share.
+struct Ends {
+    e: Two,
+    z: Two,
+    a: Two,
+    b: Two,
+    q: Two,
+    u: Two,
+    /// `1/A`.
+    ia: Two,
+    axial: Place,
 }
 
 /// Jets of `Gamma,h`, of `W,h` with `W = Gamma + depth Lambda + c Xi`, and of `(k - 2) c Gamma,e - k (depth Lambda + c Xi),w`,
-/// where `k = 1/(1 - nu)` and `depth` is the height of the end, at most 0.
-pub(super) fn jets([e, h, z]: [f64; 3], to: Direction, depth: f64, k: f64) -> [Jet; 3] {
+/// where `k = 1/(1 - nu)` and `depth` is the height of an end, at most 0.
+#[inline(always)]
+pub(super) fn jets([e, h, z]: [Two; 3], to: Direction, depth: Two, k: f64) -> [Jet; 3] {
     let Direction { s, c, f } = to;
-    let r = (e * e + h * h + z * z).sqrt();
+    let r = (e.squared() + h.squared() + z.squared()).sqrt();
     let (t, w) = (s * e + c * z, s * z - c * e);
     let a = r + z;
     // r + t without cancellation.
-    let b = if t < 0.0 {
-        (w * w + h * h) / (r - t)
-    } else {
-        r + t
-    };
-    let [l, m] = Axial::pair(&Place { r, t, w, h, b });
-    let u = r + f * (t + z) - h * h / r;
-    let both = Both {
+    let b = (r + t).or((w.squared() + h.squared()) * (r - t).recip(), t);
+    let ir = r.recip();
+    let ends = Ends {
         e,
-        h,
-        r,
+        z,
         a,
         b,
         q: f * s * z - e,
-        u,
-        lambda_hh: -u / (a * b),
+        u: r + f * (t + z) - h.squared() * ir,
+        ia: a.recip(),
+        axial: Place {
+            r,
+            t,
+            w,
+            h,
+            inverse: [ir, b.recip()],
+        },
     };
-    let [gamma_h, gamma_e, lambda_h, lambda_w] = both.gamma_and_lambda(to, &l);
-    let [xi_h, xi_w] = both.xi(to, [t, w, z], &m);
-    let mut jets = [gamma_h, gamma_h, [0.0; 8]];
-    for n in 0..8 {
-        jets[1][n] += depth * lambda_h[n] + c * xi_h[n];
-        jets[2][n] = (k - 2.0) * c * gamma_e[n] - k * (depth * lambda_w[n] + c * xi_w[n]);
-    }
-    jets
+    let [l, m] = Axial::pair(&ends.axial);
+    let [gamma_h, gamma_e, lambda_h, lambda_w] = ends.gamma_and_lambda(to, &l);
+    let [xi_h, xi_w] = ends.xi(to, &m);
+    let steep = (k - 2.0) * c;
+    let sum = |n: usize| {
+        let along = depth * lambda_w[n] + c * xi_w[n];
+        steep * gamma_e[n] - k * along
+    };
+    [
+        gamma_h,
+        std::array::from_fn(|n| gamma_h[n] + depth * lambda_h[n] + c * xi_h[n]),
+        std::array::from_fn(sum),
+    ]
 }
 
-impl Both {
+impl Ends {
     /// Jets of `Gamma,h`, `Gamma,e`, `Lambda,h`, `Lambda,w`.
+    #[inline(always)]
     fn gamma_and_lambda(&self, to: Direction, l: &Axial) -> [Jet; 4] {
         let &Self {
-            e,
-            h,
-            r,
-            a,
-            b,
-            q,
-            u,
-            ..
+            e, z, a, q, u, ia, ..
         } = self;
+        let &Place {
+            r,
+            t,
+            h,
+            inverse: [ir, ib],
+            ..
+        } = &self.axial;
         let Direction { s, c, f } = to;
-        let z = a - r;
-        let (ir, ia, ib) = (r.recip(), a.recip(), b.recip());
         let iab = ia * ib;
-        // Gradients of u, a and b along h and e.
-        let across = h * ir;
-        let along = e * ir;
-        let u_h = across * (across * across - 1.0);
-        let u_e = along * (1.0 + across * across) + f * s;
-        let lambda_hhh = iab * (u * across * (ia + ib) - u_h);
-        let lambda_hhe = iab * (u * (along * ia + (along + s) * ib) - u_e);
-        let (l_h, l_e) = (across * ib, (along + s) * ib);
+        // Gradients of r, b and u along h and e.
+        let (r_h, r_e) = (h * ir, e * ir);
+        let b_e = r_e + Two::both(s);
+        let u_h = r_h * r_h.squared() - r_h;
+        let u_e = r_e + r_e * r_h.squared() + Two::both(f * s);
+        let lambda_hhh = iab * (u * r_h * (ia + ib) - u_h);
+        let lambda_hhe = iab * (u * (r_e * ia + b_e * ib) - u_e);
+        let (l_h, l_e) = (r_h * ib, b_e * ib);
         let l = InSpace::of(to, l);
         let lambda_hee = -lambda_hhh - l.hz;
-        let v = r * r - h * h + f * r * (a + b + z - r);
-        let share = -ir * ia * iab;
+        let v = r.squared() - h.squared() + f * r * (r + 2.0 * z + t);
+        let share = -(ir * ia * iab);
         let gamma_hhh = share * h * v;
         let gamma_hhe = share * (e * v + r * a * q);
         let gamma_hee = -gamma_hhh - l_h;
@@ -113,17 +121,25 @@ impl Both {
     }
 
     /// Jets of `Xi,h`, `Xi,w`.
-    fn xi(&self, to: Direction, [t, w, z]: [f64; 3], m: &Axial) -> [Jet; 2] {
-        let &Self { h, r, a, b, q, .. } = self;
+    #[inline(always)]
+    fn xi(&self, to: Direction, m: &Axial) -> [Jet; 2] {
+        let &Self { z, b, q, u, ia, .. } = self;
+        let &Place {
+            r,
+            t,
+            w,
+            h,
+            inverse: [ir, ib],
+        } = &self.axial;
         let Direction { s, c, f } = to;
-        let iab = (r * a * b).recip();
-        let v = r * r - h * h + f * r * (r + 2.0 * t + z);
-        let share = -iab / b;
-        let xi_hhh = share * h * v;
-        let xi_hhw = share * (w * v - r * b * q);
-        let xi_hww = -xi_hhh - h * b * iab;
-        let lambda_hw = h * (q + f * s * b) * iab;
-        let xi_hhe = s * self.lambda_hh - c * xi_hhw;
+        let iab = ia * ib;
+        let (share, lambda_hh) = (ir * iab, -(u * iab));
+        let v = r.squared() - h.squared() + f * r * (r + 2.0 * t + z);
+        let xi_hhh = -(share * ib * h * v);
+        let xi_hhw = share * ib * (r * b * q - w * v);
+        let xi_hww = -xi_hhh - ir * ia * h;
+        let lambda_hw = share * h * (q + f * s * b);
+        let xi_hhe = s * lambda_hh - c * xi_hhw;
         let xi_hew = s * lambda_hw - c * xi_hww;
         let m = InSpace::of(to, m);
         [m.jet_of_h(xi_hhh, xi_hhe), m.jet_of_w(xi_hhw, xi_hew)]

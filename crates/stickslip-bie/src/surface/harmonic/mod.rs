@@ -30,11 +30,13 @@
 mod axial;
 mod end;
 mod in_space;
+mod two;
 
 use std::f64::consts::PI;
 
 use end::jets;
-use in_space::{Direction, Jet};
+use in_space::Direction;
+use two::Two;
 
 /// Edges whose cosine with the vertical is smaller may be traversed either way.
 const FLAT: f64 = 0.5;
@@ -45,9 +47,9 @@ struct Edge {
     /// The horizontal direction `e`.
     horizontal: [f64; 2],
     /// The mirrored receiver from each end, in the edge's frame.
-    from_ends: [[f64; 3]; 2],
+    from_ends: [Two; 3],
     /// Heights of the ends, at most 0.
-    heights: [f64; 2],
+    heights: Two,
     /// Whether the loop traverses it the other way.
     reversed: bool,
 }
@@ -69,11 +71,9 @@ pub(crate) fn stress<const N: usize>(
         let Some(edge) = Edge::seen(ends, point) else {
             continue;
         };
-        let [begin, end] =
-            [0, 1].map(|n| jets(edge.from_ends[n], edge.direction, edge.heights[n], k));
         let share = if edge.reversed { -0.5 } else { 0.5 } / PI;
-        let potentials =
-            [0, 1, 2].map(|p| std::array::from_fn(|n| share * (begin[p][n] - end[p][n])));
+        let jets = jets(edge.from_ends, edge.direction, edge.heights, k);
+        let potentials = jets.map(|jet| jet.map(|both| share * both.drop()));
         for (stress, slip) in stresses.iter_mut().zip(slips) {
             let jet = edge.combine(&potentials, slip, k);
             edge.add_stress(&jet, poisson_ratio, -point[2], stress);
@@ -88,8 +88,8 @@ impl Edge {
         let mut reversed = end[2] < begin[2];
         let [mut low, mut high] = if reversed { [end, begin] } else { [begin, end] };
         let [x, y, rise] = [0, 1, 2].map(|i| high[i] - low[i]);
-        let run = x.hypot(y);
-        let length = run.hypot(rise);
+        let run = (x * x + y * y).sqrt();
+        let length = (run * run + rise * rise).sqrt();
         if length == 0.0 {
             return None;
         }
@@ -119,6 +119,7 @@ impl Edge {
             ];
             [e, h, -point[2] - z]
         };
+        let (from_low, from_high) = (from(low), from(high));
         Some(Self {
             direction: Direction {
                 s,
@@ -126,14 +127,14 @@ impl Edge {
                 f: (1.0 + c).recip(),
             },
             horizontal,
-            from_ends: [from(low), from(high)],
-            heights: [low[2], high[2]],
+            from_ends: [0, 1, 2].map(|i| Two([from_low[i], from_high[i]])),
+            heights: Two([low[2], high[2]]),
             reversed,
         })
     }
 
     /// The jet of `phi` for a slip.
-    fn combine(&self, [gamma, both, rest]: &[Jet; 3], slip: &[f64; 3], k: f64) -> Jet {
+    fn combine(&self, [gamma, both, rest]: &[[f64; 8]; 3], slip: &[f64; 3], k: f64) -> [f64; 8] {
         let Direction { s, c, .. } = self.direction;
         let [x, y] = self.horizontal;
         let along = x * slip[0] + y * slip[1];
@@ -143,7 +144,7 @@ impl Edge {
     }
 
     /// Adds the stress of `phi` at a depth.
-    fn add_stress(&self, jet: &Jet, poisson_ratio: f64, depth: f64, stress: &mut [f64; 6]) {
+    fn add_stress(&self, jet: &[f64; 8], poisson_ratio: f64, depth: f64, stress: &mut [f64; 6]) {
         let &[hh, he, hhz, hez, zz, zze, zzh, zzz] = jet;
         let free = 1.0 - 2.0 * poisson_ratio;
         let inside = -2.0 * poisson_ratio * zz;
