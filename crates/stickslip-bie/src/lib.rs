@@ -34,6 +34,9 @@
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
+//! | [`Triangles`], [`CellAxes`], [`SurfaceQuality`] | a surface of triangles: sheets, axes and neighbours of its cells; STL files |
+//! | [`SurfaceError`] | why triangles are no surface |
+//! | [`TriangularDislocation`] | the stress of a triangle that slips, at any point |
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -54,6 +57,7 @@ mod loading;
 mod overstress;
 mod plane;
 mod segments;
+mod surface;
 
 pub use cells::{Cells, Section};
 pub use error::KernelError;
@@ -70,3 +74,4 @@ pub use segments::{
     DipProfile, SegmentFault, SegmentKernel, SegmentNormalKernel, Segments, SegmentsError,
     SegmentsQuality,
 };
+pub use surface::{CellAxes, SurfaceError, SurfaceQuality, Triangles, TriangularDislocation};

@@ -29,6 +29,7 @@ mod whole_space;
 
 pub(crate) use angles::cos_sin;
 pub use dislocation::RectangularDislocation;
+pub(crate) use dislocation::require_poisson_ratio;
 pub use fault::PlaneFault;
 pub use kernel::PlaneKernel;
 pub use normal::PlaneNormalKernel;

@@ -8,6 +8,7 @@ mod operators;
 mod planes;
 mod refusals;
 mod segments;
+mod surfaces;
 mod systems;
 #[cfg(feature = "rayon")]
 mod threads;

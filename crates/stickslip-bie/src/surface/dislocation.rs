@@ -1,0 +1,80 @@
+//! The stress of a triangular dislocation.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::edges::{Elastic, Loop};
+use crate::KernelError;
+use crate::error::positive;
+use crate::plane::require_poisson_ratio;
+
+/// A triangle with constant slip in an elastic whole space: the stress at any point.
+///
+/// Slip `b` is that of the side to which `(v1 - v0) x (v2 - v0)` points, relative to the other; it may have a part along
+/// this normal, which opens the triangle. Tension is positive. The stress is a sum over the edges, with one root per
+/// corner, and regular everywhere but on the edges themselves, also on their continuations. Rounding is of the order of
+/// 1e-16 times the square of the distance by the size of the triangle.
+///
+/// ```
+/// use nalgebra::Vector3;
+/// use stickslip_bie::TriangularDislocation;
+///
+/// // Four triangles about an inner point are a vertical square of 10 km x 10 km, of left-lateral slip of 1 m.
+/// let corners = [[-5e3, -15e3], [5e3, -15e3], [5e3, -5e3], [-5e3, -5e3]].map(|[x, z]| [x, 0.0, z]);
+/// let mut stress = 0.0;
+/// for k in 0..4 {
+///     let triangle = [[-1300.0, 0.0, -11e3], corners[k], corners[(k + 1) % 4]];
+///     let triangle = TriangularDislocation::whole_space(triangle, 32.04e9, 0.25)?;
+///     // The normal is -y.
+///     stress -= triangle.stress([1.0, 0.0, 0.0], [0.0, 0.0, -10e3])[(0, 1)];
+/// }
+/// assert!((stress / -3_365_382.390 - 1.0).abs() < 1e-9);
+/// # Ok::<(), stickslip_bie::KernelError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("TDE", "triangular dislocation element", "Nikkhoo"))]
+pub struct TriangularDislocation {
+    edges: Loop,
+    elastic: Elastic,
+}
+
+impl TriangularDislocation {
+    /// In a whole space, from its corners \[m\], `mu` \[Pa\] and `nu`, above -1 and below 1/2.
+    ///
+    /// # Errors
+    /// [`KernelError`] for corners that are not finite, a triangle without area, and a shear modulus or a Poisson ratio
+    /// out of its range.
+    pub fn whole_space(
+        corners: [[f64; 3]; 3],
+        shear_modulus: f64,
+        poisson_ratio: f64,
+    ) -> Result<Self, KernelError> {
+        for &value in corners.as_flattened() {
+            if !value.is_finite() {
+                let what = "coordinate [m] of a corner";
+                return Err(KernelError::new(what, "finite", value));
+            }
+        }
+        positive("shear modulus", shear_modulus)?;
+        require_poisson_ratio(poisson_ratio)?;
+        let [a, b, c] = corners.map(Vector3::from);
+        let area = 0.5 * (b - a).cross(&(c - a)).norm();
+        positive("area [m^2] of a triangle", area)?;
+        Ok(Self {
+            edges: Loop::new([a, b, c]),
+            elastic: Elastic::new(shear_modulus, poisson_ratio),
+        })
+    }
+
+    /// The stress tensor \[Pa\] at a point of slip \[m\], both along the axes of the corners.
+    ///
+    /// It is not finite on the edges of the triangle.
+    pub fn stress(&self, slip: [f64; 3], at: [f64; 3]) -> Matrix3<f64> {
+        let (at, slips) = (Vector3::from(at), [Vector3::from(slip)]);
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let columns = axes.map(|normal| {
+            let [traction] = self.edges.tractions(&at, &normal, &slips, &self.elastic);
+            traction
+        });
+        Matrix3::from_columns(&columns)
+    }
+}
