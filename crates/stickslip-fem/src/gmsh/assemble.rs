@@ -102,7 +102,8 @@ pub(super) fn assemble<const D: usize>(
 }
 
 impl Contents {
-    fn name(&self, dimension: usize, number: u32) -> String {
+    /// The name of a group, or its number.
+    pub(super) fn name(&self, dimension: usize, number: u32) -> String {
         let name = self.names.get(&(dimension, number));
         name.map_or_else(|| number.to_string(), String::clone)
     }

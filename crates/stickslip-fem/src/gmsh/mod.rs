@@ -47,6 +47,8 @@
 //! | other elements, partitions | refused |
 //! | groups of lower dimension, other sections | left out |
 //!
+//! Triangles in space, a fault without a body, are a [`Surface`].
+//!
 //! An element may belong to several groups. As soon as there is one group, Gmsh saves only elements in groups: the
 //! cells need one, too. A plane mesh (D = 2) lies at constant z.
 //!
@@ -65,6 +67,7 @@ mod layer;
 mod manifold;
 mod node_tags;
 mod nodes;
+mod surface;
 mod version_2;
 mod version_4;
 
@@ -75,6 +78,7 @@ use crate::{Mesh, ReadError};
 use contents::Contents;
 use cursor::Cursor;
 pub use node_tags::NodeTags;
+pub use surface::{Surface, parse_surface, read_surface};
 
 /// Reads the mesh in a file.
 ///

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 mod broken;
 mod mutated;
+mod surfaces;
 mod variants;
 mod written;
 

@@ -146,6 +146,10 @@ fn survives<const D: usize>(body: &str) {
             if random.below(8) == 0 {
                 read::<2>(&bytes);
                 read::<3>(&bytes);
+                if let Ok(surface) = gmsh::parse_surface(&bytes) {
+                    let mut vertices = surface.triangles.iter().flatten();
+                    assert!(vertices.all(|&vertex| vertex < surface.points.len()));
+                }
             }
         }
         // Some damage is none, or hits what is passed over; most is found.
