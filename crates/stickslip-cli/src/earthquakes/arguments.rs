@@ -6,7 +6,7 @@ use clap::{Parser, ValueEnum};
 use stickslip::Steps;
 use stickslip::bie::{Cells, Sense};
 
-use super::{DAY, Fluid, Source, YEAR};
+use super::{FaultFile, Fluid, Problem, Source, YEAR};
 use crate::cli::{Problem as Failed, positive};
 use crate::output::Files;
 
@@ -36,10 +36,10 @@ pub struct Arguments {
     /// bp3: the dip [degrees], 60 by default; published are 30, 60 and 90
     #[arg(long, value_name = "DEGREES", value_parser = dip)]
     pub dip: Option<f64>,
-    /// bp3: the hanging wall moves up dip; the default
+    /// bp3, --faults: the hanging wall moves up dip; the default
     #[arg(long, conflicts_with = "normal")]
     pub thrust: bool,
-    /// bp3: the hanging wall moves down dip
+    /// bp3, --faults: the hanging wall moves down dip
     #[arg(long)]
     pub normal: bool,
     /// bp4, bp5, bp7, bp8: components of slip, 1 along strike or 2; 1 by default, 2 for bp8
@@ -51,6 +51,9 @@ pub struct Arguments {
     /// The settings of problems with fluid injection.
     #[command(flatten)]
     pub fluid: Fluid,
+    /// Faults of a file.
+    #[command(flatten)]
+    pub fault_file: FaultFile,
     /// A folder for files in the format of the SEAS benchmarks
     #[arg(long, value_name = "DIR")]
     pub seas: Option<PathBuf>,
@@ -66,29 +69,6 @@ fn dip(text: &str) -> Result<f64, String> {
     steepest.ok_or_else(|| "must be above 0 and at most 90".into())
 }
 
-/// Problems by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Problem {
-    /// Earthquake cycles, antiplane, in a half space
-    Bp1,
-    /// bp1 with half its slip distance: small and large events
-    Bp2,
-    /// Earthquake cycles on a dipping fault in plane strain, with a normal stress that follows slip
-    Bp3,
-    /// Earthquake cycles on a plane in a whole space
-    Bp4,
-    /// Earthquake cycles on a vertical plane in a half space
-    Bp5,
-    /// Fluid injection into a fault, antiplane, in a whole space
-    Bp6,
-    /// bp6 with the slip law in the place of the aging law
-    Bp6s,
-    /// Small repeating earthquakes of a circular patch on a plane in a whole space
-    Bp7,
-    /// Fluid injection into a plane in a whole space
-    Bp8,
-}
-
 /// Methods by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Method {
@@ -98,41 +78,6 @@ pub enum Method {
     Implicit,
 }
 
-impl Problem {
-    /// Its name on the command line.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Bp1 => "bp1",
-            Self::Bp2 => "bp2",
-            Self::Bp3 => "bp3",
-            Self::Bp4 => "bp4",
-            Self::Bp5 => "bp5",
-            Self::Bp6 => "bp6",
-            Self::Bp6s => "bp6s",
-            Self::Bp7 => "bp7",
-            Self::Bp8 => "bp8",
-        }
-    }
-
-    /// The length of a cell \[m\] and the end \[years\] by default.
-    fn defaults(self) -> [f64; 2] {
-        match self {
-            Self::Bp1 => [100.0, 300.0],
-            Self::Bp2 => [100.0, 1200.0],
-            // At 100 m events after the first are decades off those of resolved cells.
-            Self::Bp3 => [50.0, 1500.0],
-            Self::Bp4 => [500.0, 1000.0],
-            Self::Bp5 => [1000.0, 1800.0],
-            Self::Bp6 | Self::Bp6s | Self::Bp7 => [10.0, 2.0],
-            Self::Bp8 => [10.0, 30.0 * DAY / YEAR],
-        }
-    }
-
-    fn is_plane(self) -> bool {
-        matches!(self, Self::Bp4 | Self::Bp5 | Self::Bp7 | Self::Bp8)
-    }
-}
-
 impl Arguments {
     /// Refuses settings of another problem.
     pub(super) fn check(&self) -> Result<(), Failed> {
@@ -140,10 +85,13 @@ impl Arguments {
         let bp6 = matches!(problem, Problem::Bp6 | Problem::Bp6s);
         let (bp8, fluid) = (problem == Problem::Bp8, &self.fluid);
         let dense = self.method == Method::Implicit;
+        let of_file = self.fault_file.faults.is_some();
+        let name = if of_file { "--faults" } else { problem.name() };
         for (flag, given, known) in [
             ("--dip", self.dip.is_some(), bp3),
-            ("--thrust", self.thrust, bp3),
-            ("--normal", self.normal, bp3),
+            ("--thrust", self.thrust, bp3 || of_file),
+            ("--normal", self.normal, bp3 || of_file),
+            ("--seas", self.seas.is_some(), !of_file),
             (
                 "--components",
                 self.components.is_some(),
@@ -163,10 +111,14 @@ impl Arguments {
                 bp8,
             ),
             ("--allow-opening", fluid.allow_opening, bp8),
-            ("--method implicit", dense, !bp3 && !problem.is_plane()),
+            (
+                "--method implicit",
+                dense,
+                !(bp3 || problem.is_plane() || of_file),
+            ),
         ] {
             if given && !known {
-                return Err(format!("{flag} is not a setting of {}", problem.name()).into());
+                return Err(format!("{flag} is not a setting of {name}").into());
             }
         }
         Ok(())
@@ -263,10 +215,13 @@ mod tests {
             "--problem bp7 --least-normal-stress 1e6",
             "--problem bp6 --allow-opening",
             "--problem bp6 --refine 3",
+            "--faults ramp.csv --seas files",
+            "--faults ramp.csv --method implicit",
+            "--faults ramp.csv --dip 30",
         ] {
             let refused = read(line).check().map_err(|error| error.to_string());
             assert!(
-                refused.is_err_and(|error| error.contains("is not a setting of bp")),
+                refused.is_err_and(|error| error.contains("is not a setting of ")),
                 "{line}"
             );
         }

@@ -13,11 +13,13 @@ mod antiplane;
 mod arguments;
 mod contours;
 mod events;
+mod faults;
 mod fluid;
 mod line;
 mod pictures;
 mod plane;
 mod plane_record;
+mod problem;
 mod profiles;
 mod run;
 mod seas;
@@ -25,8 +27,10 @@ pub(crate) mod space_time;
 pub(crate) mod stations;
 pub(crate) mod watch;
 
-pub use arguments::{Arguments, Method, Problem};
+pub use arguments::{Arguments, Method};
+pub use faults::FaultFile;
 pub use fluid::{Fluid, Pressure, Source};
+pub use problem::Problem;
 pub use run::run;
 
 use stickslip::friction::RegularizedDieterichRuina;

@@ -1,0 +1,135 @@
+//! The record of faults of a file.
+
+use stickslip::Snapshot;
+use stickslip::bie::{SegmentFault, Segments};
+
+use super::super::events::Events;
+use super::super::space_time::SpaceTime;
+use super::super::{Failed, YEAR, pictures};
+use super::friction::Strengths;
+use crate::output::{Output, number};
+
+/// What is seen of a run.
+pub(super) struct Record {
+    events: Events,
+    /// Slip rates along each fault.
+    rates: Vec<SpaceTime>,
+    /// Time, the largest slip rate, and the least and the largest normal stress.
+    rows: Vec<[f64; 4]>,
+    largest_slip: f64,
+    steps: usize,
+}
+
+impl Record {
+    /// A record of events from a slip rate on [m/s], until a time \[s\].
+    pub(super) fn new(cells: &Segments, end: f64, event: f64) -> Self {
+        let distances = cells.distances();
+        let lines = (0..cells.fault_count()).map(|fault| {
+            let line: Vec<(usize, f64)> = (cells.cells_of(fault))
+                .map(|cell| (cell, distances[cell] / 1e3))
+                .collect();
+            SpaceTime::new(&line, end)
+        });
+        Self {
+            events: Events::new(event, cells.count()),
+            rates: lines.collect(),
+            rows: Vec::new(),
+            largest_slip: 0.0,
+            steps: 0,
+        }
+    }
+
+    pub(super) fn see(&mut self, at: &Snapshot<'_, 1>) {
+        self.steps += 1;
+        let contact = at.contact(0);
+        self.events.record(at.time, &contact);
+        for rates in &mut self.rates {
+            rates.record(at.time, &contact);
+        }
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for k in 0..contact.len() {
+            let stress = contact.normal_stress(k);
+            (low, high) = (low.min(stress), high.max(stress));
+            self.largest_slip = self.largest_slip.max(contact.slip(k));
+        }
+        self.rows
+            .push([at.time, contact.max_slip_rate(), low, high]);
+    }
+
+    pub(super) fn events(&self) -> &Events {
+        &self.events
+    }
+
+    /// The largest slip anywhere \[m\].
+    pub(super) fn largest_slip(&self) -> f64 {
+        self.largest_slip
+    }
+
+    /// The least and the largest normal stress of the run \[Pa\].
+    pub(super) fn normal_stress_range(&self) -> [f64; 2] {
+        let wider = |[low, high]: [f64; 2], row: &[f64; 4]| [low.min(row[2]), high.max(row[3])];
+        self.rows
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], wider)
+    }
+
+    pub(super) fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Writes the history and the cells, and draws slip rates.
+    pub(super) fn write(
+        &self,
+        output: &Output,
+        fault: &SegmentFault,
+        strengths: &Strengths,
+        [history, cells_file, map]: [&str; 3],
+    ) -> Result<(), Failed> {
+        let columns = "time,max_slip_rate,least_normal_stress,largest_normal_stress";
+        output.table(
+            history,
+            columns,
+            self.rows.iter().map(|row| row.map(number)),
+        )?;
+        let (cells, distances) = (fault.cells(), fault.cells().distances());
+        let rows = (0..cells.count()).map(|cell| {
+            let ([x, z], law) = (cells.center(cell), strengths.laws[cell]);
+            let numbers = [
+                cells.fault_of(cell) as f64,
+                x,
+                z,
+                cells.length(cell),
+                distances[cell],
+                cells.bend_at(cell),
+                law.a,
+                law.b,
+                law.slip_distance,
+                strengths.normal_stress[cell],
+            ];
+            numbers.map(number)
+        });
+        let columns = "fault,x,z,length,distance,bend,a,b,slip_distance,normal_stress";
+        output.table(cells_file, columns, rows)?;
+        let names: Vec<String> = (0..self.rates.len())
+            .map(|fault| format!("fault {fault}: distance [km]"))
+            .collect();
+        let lines: Vec<(&str, &SpaceTime)> =
+            names.iter().map(String::as_str).zip(&self.rates).collect();
+        pictures::lines(&output.path(map), &lines)
+    }
+
+    /// Prints the events.
+    pub(super) fn say(&self) -> Result<(), Failed> {
+        say!(
+            "{:>12} {:>14} {:>12}",
+            "event years",
+            "mean slip [m]",
+            "log10 V"
+        )?;
+        for event in self.events.all() {
+            let (years, slip, peak) = (event.onset / YEAR, event.mean_slip, event.peak);
+            say!("{years:>12.3} {slip:>14.4} {peak:>12.3}")?;
+        }
+        Ok(())
+    }
+}
