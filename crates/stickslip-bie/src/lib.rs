@@ -29,6 +29,8 @@
 //! | [`PlaneKernel`], [`PlaneNormalKernel`] | its operators: forces and normal stress due to slip |
 //! | [`FaultSystem`], [`Placement`], [`SystemSection`] | several planes in one half space, each with a strike, a dip and a place |
 //! | [`SystemKernel`], [`SystemNormalKernel`] | its operators: forces and normal stress due to slip on all planes |
+//! | [`SurfaceFault`], [`SurfaceSection`] | a fault that is a surface of triangles of any shape, in a half or whole space |
+//! | [`SurfaceKernel`], [`SurfaceNormalKernel`] | its operators: forces and normal stress due to slip |
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
@@ -67,4 +69,7 @@ pub use plane::{
     FaultSystem, Placement, PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles,
     RectangularDislocation, SystemKernel, SystemNormalKernel, SystemSection,
 };
-pub use surface::{CellAxes, SurfaceError, SurfaceQuality, Triangles, TriangularDislocation};
+pub use surface::{
+    CellAxes, ResolvedStress, SurfaceError, SurfaceFault, SurfaceKernel, SurfaceNormalKernel,
+    SurfaceQuality, SurfaceSection, Triangles, TriangularDislocation,
+};

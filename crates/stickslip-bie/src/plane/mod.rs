@@ -27,10 +27,13 @@ mod terms;
 mod transform;
 mod whole_space;
 
+pub(crate) use angles::cos_sin;
 pub use dislocation::RectangularDislocation;
 pub(crate) use dislocation::require_poisson_ratio;
 pub use fault::PlaneFault;
 pub use kernel::PlaneKernel;
 pub use normal::PlaneNormalKernel;
 pub use rectangles::Rectangles;
+pub(crate) use system::dot;
 pub use system::{FaultSystem, Placement, SystemKernel, SystemNormalKernel, SystemSection};
+pub(crate) use terms::Terms;
