@@ -7,7 +7,10 @@ use stickslip_solvers::{MeshId, NormalStressChange, Operator};
 
 use crate::loading::{PLATE_RATES, check_rates, relieving};
 use crate::{DippingFault, DippingKernel, Fault, FaultSystem, Kernel, KernelError};
-use crate::{PlaneFault, PlaneKernel, Rectangles, SegmentFault, SegmentKernel, SystemKernel};
+use crate::{
+    PlaneFault, PlaneKernel, Rectangles, SegmentFault, SegmentKernel, SurfaceFault, SurfaceKernel,
+    SystemKernel,
+};
 
 /// The cells of a fault, each a vertex of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,7 +33,7 @@ pub type LoadHistory<const C: usize> = Box<dyn Fn(f64, &mut [SVector<f64, C>]) +
 ///
 /// Implement cells, stiffness and radiation damping. Override the change of the normal stress for a fault whose slip
 /// changes it, and the plate loading if back slip of all cells is not what loads it. [`Fault`], [`DippingFault`],
-/// [`SegmentFault`], [`PlaneFault`] and [`FaultSystem`] are such faults.
+/// [`SegmentFault`], [`PlaneFault`], [`FaultSystem`] and [`SurfaceFault`] are such faults.
 ///
 /// ```
 /// use nalgebra::{DMatrix, Vector1};
@@ -235,6 +238,36 @@ impl FaultGeometry<1> for SegmentFault {
     }
 
     fn normal_stress_change(&self) -> Option<Arc<dyn NormalStressChange<1>>> {
+        let change = self.normal_stiffness();
+        if change.is_zero() {
+            return None;
+        }
+        Some(Arc::new(change))
+    }
+}
+
+impl<const C: usize> FaultGeometry<C> for SurfaceFault<C> {
+    type Kernel = SurfaceKernel<C>;
+
+    fn cells(&self) -> FaultCells {
+        let cells = self.cells();
+        FaultCells {
+            centers: cells.map(|center| center),
+            areas: (0..cells.count()).map(|cell| cells.area(cell)).collect(),
+            dimension: 3,
+            identity: Some(cells.identity()),
+        }
+    }
+
+    fn stiffness(&self) -> SurfaceKernel<C> {
+        self.stiffness()
+    }
+
+    fn radiation_damping(&self) -> SurfaceKernel<C> {
+        self.radiation_damping()
+    }
+
+    fn normal_stress_change(&self) -> Option<Arc<dyn NormalStressChange<C>>> {
         let change = self.normal_stiffness();
         if change.is_zero() {
             return None;

@@ -31,6 +31,8 @@
 //! | [`SystemKernel`], [`SystemNormalKernel`] | its operators: forces and normal stress due to slip on all planes |
 //! | [`Segments`], [`DipProfile`], [`SegmentFault`] | faults along polylines, bent, listric, branched or several, in plane strain or antiplane; stress and displacement off the fault |
 //! | [`SegmentKernel`], [`SegmentNormalKernel`] | its operators: shear stress and normal stress of slip |
+//! | [`SurfaceFault`], [`SurfaceSection`] | a fault that is a surface of triangles of any shape, in a half or whole space |
+//! | [`SurfaceKernel`], [`SurfaceNormalKernel`] | its operators: forces and normal stress due to slip |
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
@@ -74,4 +76,7 @@ pub use segments::{
     DipProfile, SegmentFault, SegmentKernel, SegmentNormalKernel, Segments, SegmentsError,
     SegmentsQuality,
 };
-pub use surface::{CellAxes, SurfaceError, SurfaceQuality, Triangles, TriangularDislocation};
+pub use surface::{
+    CellAxes, ResolvedStress, SurfaceError, SurfaceFault, SurfaceKernel, SurfaceNormalKernel,
+    SurfaceQuality, SurfaceSection, Triangles, TriangularDislocation,
+};

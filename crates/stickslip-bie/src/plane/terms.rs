@@ -3,15 +3,15 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A multiple of an interaction, with the memory of its products.
-pub(super) struct Term<I, M> {
-    pub(super) factor: f64,
-    pub(super) interaction: Arc<I>,
+pub(crate) struct Term<I, M> {
+    pub(crate) factor: f64,
+    pub(crate) interaction: Arc<I>,
     memory: Mutex<M>,
 }
 
 impl<I, M> Term<I, M> {
     /// The memory of products; whatever one that panicked has left there is overwritten.
-    pub(super) fn memory(&self) -> MutexGuard<'_, M> {
+    pub(crate) fn memory(&self) -> MutexGuard<'_, M> {
         self.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -27,7 +27,7 @@ impl<I, M: Clone> Clone for Term<I, M> {
 }
 
 /// A sum of multiples of interactions, each of them once.
-pub(super) struct Terms<I, M>(Vec<Term<I, M>>);
+pub(crate) struct Terms<I, M>(Vec<Term<I, M>>);
 
 impl<I, M: Clone> Clone for Terms<I, M> {
     fn clone(&self) -> Self {
@@ -37,12 +37,12 @@ impl<I, M: Clone> Clone for Terms<I, M> {
 
 impl<I, M> Terms<I, M> {
     /// No interaction.
-    pub(super) fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self(Vec::new())
     }
 
     /// An interaction, with the memory of its products.
-    pub(super) fn of(interaction: Arc<I>, memory: M) -> Self {
+    pub(crate) fn of(interaction: Arc<I>, memory: M) -> Self {
         Self(vec![Term {
             factor: 1.0,
             interaction,
@@ -50,19 +50,19 @@ impl<I, M> Terms<I, M> {
         }])
     }
 
-    pub(super) fn iter(&self) -> std::slice::Iter<'_, Term<I, M>> {
+    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Term<I, M>> {
         self.0.iter()
     }
 
     /// The terms that do not vanish.
-    pub(super) fn present(&self) -> impl Iterator<Item = &Term<I, M>> {
+    pub(crate) fn present(&self) -> impl Iterator<Item = &Term<I, M>> {
         self.0.iter().filter(|term| term.factor != 0.0)
     }
 }
 
 impl<I, M: Clone> Terms<I, M> {
     /// Overwrites itself by the sum of `factor * terms`. Allocates nothing for interactions that it has.
-    pub(super) fn set_sum<'a>(&mut self, all: impl Iterator<Item = (f64, &'a Self)>)
+    pub(crate) fn set_sum<'a>(&mut self, all: impl Iterator<Item = (f64, &'a Self)>)
     where
         I: 'a,
         M: 'a,

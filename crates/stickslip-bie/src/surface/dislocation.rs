@@ -2,12 +2,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::edges::{Elastic, Loop};
+use super::edges::Loop;
+use super::rock::Rock;
 use crate::KernelError;
 use crate::error::positive;
-use crate::plane::require_poisson_ratio;
 
-/// A triangle with constant slip in an elastic whole space: the stress at any point.
+/// A triangle with constant slip in an elastic whole or half space: the stress at any point.
 ///
 /// Slip `b` is that of the side to which `(v1 - v0) x (v2 - v0)` points, relative to the other; it may have a part along
 /// this normal, which opens the triangle. Tension is positive. The stress is a sum over the edges, with one root per
@@ -34,7 +34,7 @@ use crate::plane::require_poisson_ratio;
 #[doc(alias("TDE", "triangular dislocation element", "Nikkhoo"))]
 pub struct TriangularDislocation {
     edges: Loop,
-    elastic: Elastic,
+    rock: Rock,
 }
 
 impl TriangularDislocation {
@@ -48,31 +48,52 @@ impl TriangularDislocation {
         shear_modulus: f64,
         poisson_ratio: f64,
     ) -> Result<Self, KernelError> {
+        Self::new(corners, Rock::new(shear_modulus, poisson_ratio, false)?)
+    }
+
+    /// In a half space `z <= 0` with a free surface, see [`whole_space`](Self::whole_space). The triangle may touch the
+    /// surface.
+    ///
+    /// Source: M. Nikkhoo and T. R. Walter, Geophys. J. Int. 201 (2015), of which this is the sum.
+    ///
+    /// # Errors
+    /// The errors of [`whole_space`](Self::whole_space); [`KernelError`] for a corner above the surface.
+    pub fn half_space(
+        corners: [[f64; 3]; 3],
+        shear_modulus: f64,
+        poisson_ratio: f64,
+    ) -> Result<Self, KernelError> {
+        if let Some(&[_, _, z]) = corners.iter().find(|corner| corner[2] > 0.0) {
+            let what = "height [m] of a corner above the surface";
+            return Err(KernelError::new(what, "at most", z).bound(0.0));
+        }
+        Self::new(corners, Rock::new(shear_modulus, poisson_ratio, true)?)
+    }
+
+    fn new(corners: [[f64; 3]; 3], rock: Rock) -> Result<Self, KernelError> {
         for &value in corners.as_flattened() {
             if !value.is_finite() {
                 let what = "coordinate [m] of a corner";
                 return Err(KernelError::new(what, "finite", value));
             }
         }
-        positive("shear modulus", shear_modulus)?;
-        require_poisson_ratio(poisson_ratio)?;
         let [a, b, c] = corners.map(Vector3::from);
         let area = 0.5 * (b - a).cross(&(c - a)).norm();
         positive("area [m^2] of a triangle", area)?;
         Ok(Self {
             edges: Loop::new([a, b, c]),
-            elastic: Elastic::new(shear_modulus, poisson_ratio),
+            rock,
         })
     }
 
     /// The stress tensor \[Pa\] at a point of slip \[m\], both along the axes of the corners.
     ///
-    /// It is not finite on the edges of the triangle.
+    /// It is not finite on the edges of the triangle, and without meaning above the surface of a half space.
     pub fn stress(&self, slip: [f64; 3], at: [f64; 3]) -> Matrix3<f64> {
         let (at, slips) = (Vector3::from(at), [Vector3::from(slip)]);
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
         let columns = axes.map(|normal| {
-            let [traction] = self.edges.tractions(&at, &normal, &slips, &self.elastic);
+            let [traction] = self.rock.tractions(&self.edges, &at, &normal, &slips);
             traction
         });
         Matrix3::from_columns(&columns)

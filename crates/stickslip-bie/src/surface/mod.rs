@@ -1,12 +1,27 @@
 //! Faults that are surfaces of triangles.
 
+mod averaging;
+mod consistency;
+mod dense;
 mod dislocation;
 mod edges;
+mod elements;
 mod error;
-#[cfg_attr(not(test), allow(dead_code, reason = "the half space of triangles"))]
+mod fault;
 mod harmonic;
+mod kernel;
+mod loading;
 mod mesh;
+mod normal;
+mod rock;
+mod section;
+mod stiffness;
 
 pub use dislocation::TriangularDislocation;
 pub use error::SurfaceError;
+pub use fault::SurfaceFault;
+pub use kernel::SurfaceKernel;
+pub use loading::ResolvedStress;
 pub use mesh::{CellAxes, SurfaceQuality, Triangles};
+pub use normal::SurfaceNormalKernel;
+pub use section::SurfaceSection;

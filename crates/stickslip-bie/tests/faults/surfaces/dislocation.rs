@@ -7,7 +7,7 @@ use stickslip_bie::{KernelError, RectangularDislocation, TriangularDislocation};
 use super::axes;
 use crate::Outcome;
 
-const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, -3.0], [4.0, 1.0, -2.0], [1.0, 3.0, -5.0]];
+pub(super) const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, -3.0], [4.0, 1.0, -2.0], [1.0, 3.0, -5.0]];
 
 /// `xx yy zz xy xz yz` at four points of slip along strike, up dip and open, `mu = 1`, `nu = 1/4`, by angular
 /// dislocations (M. Nikkhoo and T. R. Walter, Geophys. J. Int. 201 (2015); cutde).

@@ -71,7 +71,7 @@ fn orientations_are_made_consistent() -> Outcome {
 
 #[test]
 fn neighbors_share_their_edges() -> Outcome {
-    let cells = triangles(&sphere(2))?;
+    let cells = triangles(&sphere(4))?;
     assert_eq!((cells.count(), cells.sheet_count()), (320, 1));
     let volume: f64 = (0..cells.count())
         .map(|cell| {

@@ -53,49 +53,79 @@ pub(crate) fn equilateral(half: f64, side: f64) -> Mesh {
     mesh
 }
 
-/// A sphere of radius 1: an icosahedron whose faces are divided `times` times.
-pub(crate) fn sphere(times: usize) -> Mesh {
+/// A sphere of radius 1: an icosahedron whose faces are divided into `parts^2` triangles; corners come more than once.
+pub(crate) fn sphere(parts: usize) -> Mesh {
     let g = 0.5 * (1.0 + 5f64.sqrt());
-    let mut points = Vec::new();
+    let mut corners = Vec::new();
     for (a, b) in [(1.0, g), (-1.0, g), (1.0, -g), (-1.0, -g)] {
-        points.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
+        corners.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
     }
     let apart = |i: usize, j: usize| -> f64 {
-        let (p, q): (&[f64; 3], &[f64; 3]) = (&points[i], &points[j]);
+        let (p, q): (&[f64; 3], &[f64; 3]) = (&corners[i], &corners[j]);
         (0..3).map(|c| (p[c] - q[c]).powi(2)).sum()
     };
-    let mut triangles = Vec::new();
-    for i in 0..12 {
-        for j in i + 1..12 {
-            for k in j + 1..12 {
-                if [apart(i, j), apart(j, k), apart(i, k)]
-                    .iter()
-                    .all(|&d| d < 5.0)
-                {
-                    triangles.push([i, j, k]);
+    let mut mesh: Mesh = (Vec::new(), Vec::new());
+    for (i, j, k) in (0..12)
+        .flat_map(|i| (i + 1..12).flat_map(move |j| (j + 1..12).map(move |k| (i, j, k))))
+        .filter(|&(i, j, k)| {
+            [apart(i, j), apart(j, k), apart(i, k)]
+                .iter()
+                .all(|&d| d < 5.0)
+        })
+    {
+        let first = mesh.0.len();
+        let number = |u: usize, v: usize| first + u * (2 * parts + 3 - u) / 2 + v;
+        for u in 0..=parts {
+            for v in 0..=parts - u {
+                let weights = [parts - u - v, u, v].map(|n| n as f64);
+                let at = [0, 1, 2].map(|c| {
+                    let [p, q, r] = [i, j, k].map(|corner| corners[corner][c]);
+                    weights[0] * p + weights[1] * q + weights[2] * r
+                });
+                let r = at.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
+                mesh.0.push(at.map(|x| x / r));
+            }
+        }
+        for u in 0..parts {
+            for v in 0..parts - u {
+                mesh.1
+                    .push([number(u, v), number(u + 1, v), number(u, v + 1)]);
+                if u + v + 1 < parts {
+                    mesh.1
+                        .push([number(u + 1, v), number(u + 1, v + 1), number(u, v + 1)]);
                 }
             }
         }
     }
-    for _ in 0..times {
-        let mut middles = HashMap::new();
-        let mut finer = Vec::new();
-        for [a, b, c] in triangles {
-            let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(i, j): (usize, usize)| {
-                *middles.entry((i.min(j), i.max(j))).or_insert_with(|| {
-                    points.push([0, 1, 2].map(|c| 0.5 * (points[i][c] + points[j][c])));
-                    points.len() - 1
-                })
-            });
-            finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+    mesh
+}
+
+/// A disc of radius 1 in `z = 0`: rings of 6, 12, 18 .. vertices about the centre, `6 rings^2` triangles.
+pub(crate) fn disc(rings: usize) -> Mesh {
+    let mut mesh: Mesh = (vec![[0.0; 3]], Vec::new());
+    // The first vertex of ring k.
+    let first = |k: usize| if k == 0 { 0 } else { 1 + 3 * k * (k - 1) };
+    for k in 1..=rings {
+        let radius = k as f64 / rings as f64;
+        for n in 0..6 * k {
+            let (sin, cos) = (n as f64 / (6 * k) as f64 * std::f64::consts::TAU).sin_cos();
+            mesh.0.push([radius * cos, radius * sin, 0.0]);
         }
-        triangles = finer;
-        for point in &mut points {
-            let r = point.iter().map(|x| x * x).sum::<f64>().sqrt();
-            *point = point.map(|x| x / r);
+        for sector in 0..6 {
+            let outer = |n: usize| first(k) + (sector * k + n) % (6 * k);
+            let inner = |n: usize| match k {
+                1 => 0,
+                _ => first(k - 1) + (sector * (k - 1) + n) % (6 * (k - 1)),
+            };
+            for n in 0..k {
+                mesh.1.push([inner(n), outer(n), outer(n + 1)]);
+                if n + 1 < k {
+                    mesh.1.push([inner(n), outer(n + 1), inner(n + 1)]);
+                }
+            }
         }
     }
-    (points, triangles)
+    mesh
 }
 
 /// Both meshes as one.

@@ -1,6 +1,9 @@
 //! Surfaces of triangles.
 
+mod convergence;
 mod dislocation;
+mod fault;
+mod half_space;
 mod mesh;
 mod meshes;
 mod stl;
