@@ -1,6 +1,7 @@
 //! The program `stickslip`, run as a user runs it.
 
 mod crack;
+mod faults;
 mod fit;
 mod fit_jointly;
 mod injection;

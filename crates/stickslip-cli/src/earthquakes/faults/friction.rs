@@ -62,13 +62,13 @@ impl Strengths {
         Ok(own)
     }
 
-    /// The largest ratio of shear to normal stress in steady sliding at a slip rate [m/s]: cells that weaken start below it.
+    /// The least ratio of shear to normal stress in steady sliding at a slip rate [m/s]: no cell starts above its own.
     pub(super) fn steady_ratio(&self, rate: f64) -> f64 {
         let steady = self.laws.iter().map(|law| {
             let state = LogTheta((law.slip_distance / rate).ln());
             law.coefficient(rate, state)
         });
-        steady.fold(0.0, f64::max)
+        steady.fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -127,19 +127,17 @@ fn told(cells: &Segments) -> String {
             let bend = quality.largest_bend;
             format!(", largest bend {bend:.2} degrees behind cell {cell}")
         });
+    let number = cells.fault_count();
+    let faults = if number == 1 { "fault" } else { "faults" };
+    let ([x0, z0], [x1, z1]) = (low, high);
     format!(
-        "{} cells on {} faults, x from {} m to {} m, z from {} m to {} m{bend}",
+        "{} cells on {number} {faults}, x from {x0:.1} m to {x1:.1} m, z from {z0:.1} m to {z1:.1} m{bend}",
         cells.count(),
-        cells.fault_count(),
-        low[0],
-        high[0],
-        low[1],
-        high[1]
     )
 }
 
-/// The scene of faults that start at the plate rate, under the ratio of shear to normal stress at which the strongest cell
-/// slides steadily.
+/// The scene of faults that start at the plate rate, under the least ratio of shear to normal stress at which a cell slides
+/// steadily.
 fn scene(
     fault: &SegmentFault,
     strengths: &Strengths,
