@@ -32,6 +32,9 @@ mod documents {
     #[doc = include_str!("../docs/leave-out.md")]
     struct LeaveOut;
 
+    #[doc = include_str!("../docs/nonplanar.md")]
+    struct Nonplanar;
+
     #[doc = include_str!("../docs/recipes.md")]
     struct Recipes;
 

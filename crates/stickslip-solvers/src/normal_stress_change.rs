@@ -12,8 +12,8 @@ use crate::MeshId;
 /// sigma_n = sigma_n0(t) + N (u - V_p t)
 /// ```
 ///
-/// Faults by boundary integrals make one: `DippingFault::normal_stiffness`, `PlaneFault::normal_stiffness`,
-/// `FaultSystem::normal_stiffness`. An own implementation adds one number per vertex:
+/// Faults by boundary integrals make one: `DippingFault::normal_stiffness`, `SegmentFault::normal_stiffness`,
+/// `PlaneFault::normal_stiffness`, `FaultSystem::normal_stiffness`. An own implementation adds one number per vertex:
 ///
 /// ```
 /// use nalgebra::Vector1;
@@ -41,6 +41,12 @@ pub trait NormalStressChange<const C: usize>: Send + Sync {
         None
     }
 
+    /// The angle by which the fault bends at a vertex \[degrees\], which names the cause of a normal stress that vanishes;
+    /// `None` by default, for straight faults.
+    fn bend(&self, _vertex: usize) -> Option<f64> {
+        None
+    }
+
     /// `normal_stress += scale N displacement` \[Pa\], one number per vertex of the body. It is called in every stage
     /// and should not allocate.
     fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]);
@@ -53,6 +59,10 @@ impl<T: NormalStressChange<C> + ?Sized, const C: usize> NormalStressChange<C> fo
 
     fn mesh(&self) -> Option<MeshId> {
         (**self).mesh()
+    }
+
+    fn bend(&self, vertex: usize) -> Option<f64> {
+        (**self).bend(vertex)
     }
 
     fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {

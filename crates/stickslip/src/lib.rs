@@ -46,7 +46,7 @@
 //! | `fem` | yes | meshes, P1 spaces and their operators, and with it sprs |
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
-//! | `bie` | no | planar faults by boundary integrals, in half and whole spaces, lines of any dip and planes in 3D (`stickslip::bie`), and with it realfft |
+//! | `bie` | no | faults by boundary integrals, in half and whole spaces: lines of any dip, polylines, and planes in 3D (`stickslip::bie`), and with it realfft |
 //! | `gmsh` | no | meshes of Gmsh with the names of their groups |
 //! | `csv` | no | parameter samples from tables, and with it csv |
 //! | `vtk` | no | files of the body and its contacts for ParaView |

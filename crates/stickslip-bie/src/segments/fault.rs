@@ -35,7 +35,7 @@ const DENSE: usize = 2000;
 ///
 /// At a sharp bend the normal stress due to slip grows as 1/h, without limit as cells become shorter. Bends are to be spread
 /// over many cells ([`DipProfile::spread`](crate::DipProfile::spread)); [`Segments::quality`] reports the largest. A run
-/// in which the normal stress vanishes ends with the cell and its time, and [`Segments::bend_at`] is the bend there.
+/// in which the normal stress vanishes ends with the cell, its time and the bend there ([`Segments::bend_at`]).
 ///
 /// # Errors of cells
 ///
@@ -52,12 +52,12 @@ const DENSE: usize = 2000;
 /// let second = first.map_points(|[x, z]| [x + 5e3, z])?;
 /// let mode = Mode::InPlane { poisson_ratio: 0.25 };
 /// let faults = SegmentFault::half_space(first.with(&second)?, rock, mode)?;
-/// // Slip of the first unclamps the upper half of the second.
+/// // Slip of the first unclamps the middle of the second.
 /// let mut slip = vec![Vector1::new(0.0); 40];
 /// slip[..20].fill(Vector1::new(1.0));
 /// let mut stress = vec![0.0; 40];
 /// faults.normal_stiffness().multiply_add(1.0, &slip, &mut stress);
-/// assert!(stress[25] < 0.0);
+/// assert!(stress[31] < 0.0);
 /// # Ok::<(), stickslip_bie::SegmentsError>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -149,6 +149,11 @@ impl SegmentFault {
         &self.segments
     }
 
+    /// The rock around it.
+    pub fn rock(&self) -> Medium {
+        self.rock
+    }
+
     /// The direction of slip.
     pub fn mode(&self) -> Mode {
         self.mode
@@ -195,7 +200,7 @@ impl SegmentFault {
                 Arc::new(Rows::new(self.segments.count(), stress))
             }))),
         };
-        SegmentNormalKernel::new(rows, self.segments.identity())
+        SegmentNormalKernel::new(rows, &self.segments)
     }
 
     /// The radiation damping as a viscosity matrix, for shear waves along the normal of each cell [Pa s/m times a length]:

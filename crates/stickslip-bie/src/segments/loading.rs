@@ -88,9 +88,4 @@ impl SegmentFault {
         });
         Ok(rates.map(|rate| SVector::from([rate])).collect())
     }
-
-    /// The shear modulus \[Pa\] of the rock around it, and its shear wave speed [m/s].
-    pub fn rock(&self) -> crate::Medium {
-        self.rock
-    }
 }

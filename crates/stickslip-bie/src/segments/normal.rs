@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, SVector};
 use stickslip_solvers::{MeshId, NormalStressChange};
 
+use super::Segments;
 use super::rows::Rows;
 
 /// The change of normal stress on the cells of a [`SegmentFault`](crate::SegmentFault) per slip [Pa/m], compression
@@ -14,12 +15,19 @@ use super::rows::Rows;
 pub struct SegmentNormalKernel {
     /// `None`: zero.
     rows: Option<Arc<Rows>>,
+    /// The bend at each cell in degrees.
+    bends: Arc<[f64]>,
     mesh: MeshId,
 }
 
 impl SegmentNormalKernel {
-    pub(super) fn new(rows: Option<Arc<Rows>>, mesh: MeshId) -> Self {
-        Self { rows, mesh }
+    pub(super) fn new(rows: Option<Arc<Rows>>, segments: &Segments) -> Self {
+        let bends = (0..segments.count()).map(|cell| segments.bend_at(cell));
+        Self {
+            rows,
+            bends: bends.collect(),
+            mesh: segments.identity(),
+        }
     }
 
     /// The identity of its cells, see [`Segments::identity`](crate::Segments::identity).
@@ -67,6 +75,12 @@ impl NormalStressChange<1> for SegmentNormalKernel {
 
     fn mesh(&self) -> Option<MeshId> {
         Some(self.mesh())
+    }
+
+    /// That of [`Segments::bend_at`](crate::Segments::bend_at), from 0.001 degrees on.
+    fn bend(&self, vertex: usize) -> Option<f64> {
+        let bend = self.bends.get(vertex).copied();
+        bend.filter(|bend| *bend >= 1e-3)
     }
 
     fn add(&self, scale: f64, slip: &[SVector<f64, 1>], normal_stress: &mut [f64]) {

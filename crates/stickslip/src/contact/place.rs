@@ -13,6 +13,7 @@ impl Place {
             point: part.points.get(number).copied(),
             dimension: part.dimension,
             cell: cell(part, number),
+            bend: None,
         }
     }
 }

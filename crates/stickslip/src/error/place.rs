@@ -19,6 +19,9 @@ pub struct Place {
     /// The row and the column, down dip and along strike and counted from 0, in a contact whose cells are a rectangle
     /// of a plane.
     pub cell: Option<[usize; 2]>,
+    /// The angle by which the fault bends there \[degrees\], if its normal stress follows slip; `None` where it is straight.
+    /// At sharp bends normal stress grows as the inverse length of cells: spread them over many cells.
+    pub bend: Option<f64>,
 }
 
 /// In one line: "vertex 12 is number 3 of contact(0), at [1.5, 0] m".
@@ -39,6 +42,9 @@ impl fmt::Display for Place {
         }
         if let Some(point) = &self.point {
             write!(f, ", at {:?} m", &point[..self.dimension.min(3)])?;
+        }
+        if let Some(bend) = self.bend {
+            write!(f, ", where the fault bends by {bend:.3} degrees")?;
         }
         Ok(())
     }

@@ -59,6 +59,11 @@ impl<const C: usize> Clamping<C> {
         self.change.add(1.0, displacement, &mut self.values);
     }
 
+    /// The angle by which the fault bends at a vertex \[degrees\].
+    pub(crate) fn bend(&self, vertex: usize) -> Option<f64> {
+        self.change.bend(vertex)
+    }
+
     /// The rate by the plate [Pa/s].
     #[cfg(feature = "checkpoint")]
     pub(crate) fn loading(&self) -> &[f64] {

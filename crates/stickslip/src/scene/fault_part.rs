@@ -51,6 +51,30 @@ impl From<&stickslip_bie::DippingFault> for BoundaryPart {
     }
 }
 
+/// A point has two coordinates, `x` and `z`.
+impl From<&stickslip_bie::Section<stickslip_bie::Segments>> for BoundaryPart {
+    fn from(section: &stickslip_bie::Section<stickslip_bie::Segments>) -> Self {
+        let cells = section.cells();
+        let vertices = section.vertices().to_vec();
+        Self {
+            weights: vertices.iter().map(|&cell| cells.length(cell)).collect(),
+            points: section.map(|[x, z]| [x, z, 0.0]),
+            vertices,
+            normals: Vec::new(),
+            axes: Vec::new(),
+            opposite: None,
+            dimension: 2,
+            mesh: Some(cells.identity()),
+        }
+    }
+}
+
+impl From<&stickslip_bie::SegmentFault> for BoundaryPart {
+    fn from(fault: &stickslip_bie::SegmentFault) -> Self {
+        FaultGeometry::cells(fault).into()
+    }
+}
+
 /// A point has two coordinates, along strike and down dip.
 impl From<&stickslip_bie::Section<stickslip_bie::Rectangles>> for BoundaryPart {
     fn from(section: &stickslip_bie::Section<stickslip_bie::Rectangles>) -> Self {

@@ -72,10 +72,15 @@ impl<'a, const C: usize> Snapshot<'a, C> {
 
     /// The place of a vertex of the body in the first contact that has it.
     pub(crate) fn place_of(&self, vertex: usize) -> Option<Place> {
-        let contacts = self.source.contacts().contacts.iter().enumerate();
+        let all = self.source.contacts();
+        let bend = || all.clamping().and_then(|clamping| clamping.bend(vertex));
+        let contacts = all.contacts.iter().enumerate();
         let mut places = contacts.filter_map(|(index, contact)| {
             let number = contact.position_of(vertex)?;
-            Some(Place::of(&contact.part, index, number))
+            Some(Place {
+                bend: bend(),
+                ..Place::of(&contact.part, index, number)
+            })
         });
         places.next()
     }

@@ -5,6 +5,7 @@ mod loads;
 mod off_fault;
 mod operators;
 mod planar;
+mod ranges;
 mod references;
 mod refusals;
 #[cfg(feature = "csv")]

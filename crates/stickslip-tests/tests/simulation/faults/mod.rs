@@ -13,6 +13,7 @@ mod other_cells;
 mod own_geometry;
 mod refusals;
 mod restart;
+mod segments;
 
 use nalgebra::Vector1;
 use stickslip::bie::{Cells, Fault, Medium, Mode};

@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, SVector};
 use stickslip::bie::{
-    Cells, DippingFault, Fault, FaultSystem, Medium, Mode, Placement, PlaneFault, Rectangles, Sense,
+    Cells, DippingFault, Fault, FaultSystem, Medium, Mode, Placement, PlaneFault, Rectangles,
+    SegmentFault, Segments, Sense,
 };
 use stickslip::friction::Tresca;
 use stickslip::{
@@ -61,6 +62,20 @@ fn parts_of_two_faults_do_not_mix() -> Outcome {
     };
     do_not_mix(|length| {
         let fault = DippingFault::new(line(length)?, ROCK, 0.25, 60.0, Sense::Thrust)?;
+        Ok(Parts {
+            stiffness: fault.stiffness(),
+            damping: fault.radiation_damping(),
+            normal: fault.normal_stiffness(),
+            contact: (&fault).into(),
+            cells: fault.cells().identity(),
+        })
+    })?;
+    do_not_mix(|length| {
+        let mode = Mode::InPlane {
+            poisson_ratio: 0.25,
+        };
+        let bent = Segments::down([(60.0, length), (40.0, length)], length / 6.0)?;
+        let fault = SegmentFault::half_space(bent, ROCK, mode)?;
         Ok(Parts {
             stiffness: fault.stiffness(),
             damping: fault.radiation_damping(),
