@@ -35,6 +35,7 @@
 //! | [`SurfaceKernel`], [`SurfaceNormalKernel`] | its operators: forces and normal stress due to slip |
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
+//! | [`HMatrix`] | a matrix of smooth interactions in clusters, with blocks of low rank between those far from each other ([`hmatrix`]) |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
 //! | [`Triangles`], [`CellAxes`], [`SurfaceQuality`] | a surface of triangles: sheets, axes and neighbours of its cells; STL files |
 //! | [`SurfaceError`] | why triangles are no surface |
@@ -52,11 +53,13 @@ mod convolution;
 mod error;
 mod fault;
 mod geometry;
+pub mod hmatrix;
 mod kernel;
 mod line;
 mod line_loads;
 mod loading;
 mod overstress;
+mod pivots;
 mod plane;
 mod segments;
 mod surface;
@@ -65,6 +68,7 @@ pub use cells::{Cells, Section};
 pub use error::KernelError;
 pub use fault::{Fault, Medium, Mode};
 pub use geometry::{FaultCells, FaultGeometry, LoadHistory};
+pub use hmatrix::HMatrix;
 pub use kernel::Kernel;
 pub use line::{DippingFault, DippingKernel, DippingNormalKernel, Sense};
 pub use overstress::Overstress;

@@ -2,6 +2,8 @@
 
 use nalgebra::SVector;
 
+use crate::pivots::{largest, subtract};
+
 /// The largest sum of errors in a row, as a share of the scale of the matrix.
 const TOLERANCE: f64 = 1e-11;
 /// Independent sums in one product, for registers of several numbers.
@@ -167,18 +169,6 @@ fn cross_approximation(entries: &impl Entries) -> Option<Vec<[Vec<f64>; 2]>> {
         pairs.push([column, row.clone()]);
     }
     Some(pairs)
-}
-
-fn subtract(from: &mut [f64], factor: f64, values: &[f64]) {
-    for (from, value) in from.iter_mut().zip(values) {
-        *from -= factor * value;
-    }
-}
-
-/// The place of the entry of the largest modulus among those allowed.
-fn largest(values: &[f64], allowed: impl Fn(usize) -> bool) -> Option<usize> {
-    let places = (0..values.len()).filter(|&place| allowed(place));
-    places.max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs()))
 }
 
 /// Rows up to the last, denser towards the surface, where images are near.

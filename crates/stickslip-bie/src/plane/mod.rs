@@ -16,7 +16,7 @@ mod mode_matrices;
 mod modes;
 mod normal;
 mod okada;
-mod parts;
+pub(crate) mod parts;
 mod periodic;
 mod ranks;
 mod rectangles;

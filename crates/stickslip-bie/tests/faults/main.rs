@@ -3,6 +3,7 @@
 mod allocation;
 mod closed_forms;
 mod dipping;
+mod hmatrix;
 mod loads;
 mod operators;
 mod planes;

@@ -23,45 +23,23 @@ use super::in_space::{Direction, InSpace, Jet};
 use super::two::Two;
 
 /// The place of the mirrored receiver from the ends of an edge, and what all potentials share.
-struct Ends {
-    e: Two,
-    z: Two,
-    a: Two,
-    b: Two,
-    q: Two,
-    u: Two,
+pub(super) struct Ends {
+    pub(super) e: Two,
+    pub(super) z: Two,
+    pub(super) a: Two,
+    pub(super) b: Two,
+    pub(super) q: Two,
+    pub(super) u: Two,
     /// `1/A`.
-    ia: Two,
-    axial: Place,
+    pub(super) ia: Two,
+    pub(super) axial: Place,
 }
 
 /// Jets of `Gamma,h`, of `W,h` with `W = Gamma + depth Lambda + c Xi`, and of `(k - 2) c Gamma,e - k (depth Lambda + c Xi),w`,
 /// where `k = 1/(1 - nu)` and `depth` is the height of an end, at most 0.
 #[inline(always)]
-pub(super) fn jets([e, h, z]: [Two; 3], to: Direction, depth: Two, k: f64) -> [Jet; 3] {
-    let Direction { s, c, f } = to;
-    let r = (e.squared() + h.squared() + z.squared()).sqrt();
-    let (t, w) = (s * e + c * z, s * z - c * e);
-    let a = r + z;
-    // r + t without cancellation.
-    let b = (r + t).or((w.squared() + h.squared()) * (r - t).recip(), t);
-    let ir = r.recip();
-    let ends = Ends {
-        e,
-        z,
-        a,
-        b,
-        q: f * s * z - e,
-        u: r + f * (t + z) - h.squared() * ir,
-        ia: a.recip(),
-        axial: Place {
-            r,
-            t,
-            w,
-            h,
-            inverse: [ir, b.recip()],
-        },
-    };
+pub(super) fn jets(ends: &Ends, to: Direction, depth: Two, k: f64) -> [Jet; 3] {
+    let Direction { c, .. } = to;
     let [l, m] = Axial::pair(&ends.axial);
     let [gamma_h, gamma_e, lambda_h, lambda_w] = ends.gamma_and_lambda(to, &l);
     let [xi_h, xi_w] = ends.xi(to, &m);
@@ -78,6 +56,34 @@ pub(super) fn jets([e, h, z]: [Two; 3], to: Direction, depth: Two, k: f64) -> [J
 }
 
 impl Ends {
+    /// From the mirrored receiver along `e`, `h`, `z`.
+    #[inline(always)]
+    pub(super) fn new([e, h, z]: [Two; 3], to: Direction) -> Self {
+        let Direction { s, c, f } = to;
+        let r = (e.squared() + h.squared() + z.squared()).sqrt();
+        let (t, w) = (s * e + c * z, s * z - c * e);
+        let a = r + z;
+        // r + t without cancellation.
+        let b = (r + t).or((w.squared() + h.squared()) * (r - t).recip(), t);
+        let ir = r.recip();
+        Self {
+            e,
+            z,
+            a,
+            b,
+            q: f * s * z - e,
+            u: r + f * (t + z) - h.squared() * ir,
+            ia: a.recip(),
+            axial: Place {
+                r,
+                t,
+                w,
+                h,
+                inverse: [ir, b.recip()],
+            },
+        }
+    }
+
     /// Jets of `Gamma,h`, `Gamma,e`, `Lambda,h`, `Lambda,w`.
     #[inline(always)]
     fn gamma_and_lambda(&self, to: Direction, l: &Axial) -> [Jet; 4] {

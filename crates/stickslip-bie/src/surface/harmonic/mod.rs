@@ -30,12 +30,14 @@
 mod axial;
 mod end;
 mod in_space;
+mod slopes;
 mod two;
 
 use std::f64::consts::PI;
 
-use end::jets;
+use end::{Ends, jets};
 use in_space::Direction;
+use slopes::slopes;
 use two::Two;
 
 /// Edges whose cosine with the vertical is smaller may be traversed either way.
@@ -50,8 +52,8 @@ struct Edge {
     from_ends: [Two; 3],
     /// Heights of the ends, at most 0.
     heights: Two,
-    /// Whether the loop traverses it the other way.
-    reversed: bool,
+    /// `1/(2 pi)`, negative if the loop traverses it the other way.
+    share: f64,
 }
 
 /// Stress `xx yy zz xy xz yz` per unit shear modulus [1/length of the triangle per unit slip], for each slip.
@@ -66,20 +68,47 @@ pub(crate) fn stress<const N: usize>(
 ) -> [[f64; 6]; N] {
     let k = (1.0 - poisson_ratio).recip();
     let mut stresses = [[0.0; 6]; N];
-    for first in 0..3 {
-        let ends = [triangle[first], triangle[(first + 1) % 3]];
-        let Some(edge) = Edge::seen(ends, point) else {
-            continue;
-        };
-        let share = if edge.reversed { -0.5 } else { 0.5 } / PI;
-        let jets = jets(edge.from_ends, edge.direction, edge.heights, k);
-        let potentials = jets.map(|jet| jet.map(|both| share * both.drop()));
+    for edge in edges(triangle, point) {
+        let ends = Ends::new(edge.from_ends, edge.direction);
+        let jets = jets(&ends, edge.direction, edge.heights, k);
+        let potentials = jets.map(|jet| jet.map(|both| edge.share * both.drop()));
         for (stress, slip) in stresses.iter_mut().zip(slips) {
             let jet = edge.combine(&potentials, slip, k);
             edge.add_stress(&jet, poisson_ratio, -point[2], stress);
         }
     }
     stresses
+}
+
+/// Displacement along `x`, `y`, `z` per unit slip, for each slip; slips and heights are those of [`stress`].
+///
+/// ```text
+/// u_i = [(1 - 2 nu) phi,i + z phi,iz]/(2 mu)     u_z = [2 (1 - nu) phi,z - z phi,zz]/(2 mu)     i = x, y
+/// ```
+pub(crate) fn displacement<const N: usize>(
+    triangle: &[[f64; 3]; 3],
+    slips: &[[f64; 3]; N],
+    poisson_ratio: f64,
+    point: [f64; 3],
+) -> [[f64; 3]; N] {
+    let k = (1.0 - poisson_ratio).recip();
+    let mut displacements = [[0.0; 3]; N];
+    for edge in edges(triangle, point) {
+        let ends = Ends::new(edge.from_ends, edge.direction);
+        let slopes = slopes(&ends, edge.direction, edge.heights, k);
+        let potentials = slopes.map(|slopes| slopes.map(|both| edge.share * both.drop()));
+        for (displacement, slip) in displacements.iter_mut().zip(slips) {
+            let slopes = edge.combine(&potentials, slip, k);
+            edge.add_displacement(&slopes, poisson_ratio, -point[2], displacement);
+        }
+    }
+    displacements
+}
+
+/// The edges of a triangle.
+fn edges(triangle: &[[f64; 3]; 3], point: [f64; 3]) -> impl Iterator<Item = Edge> {
+    let pairs = [0, 1, 2].map(|first| [triangle[first], triangle[(first + 1) % 3]]);
+    (pairs.into_iter()).filter_map(move |ends| Edge::seen(ends, point))
 }
 
 impl Edge {
@@ -129,12 +158,17 @@ impl Edge {
             horizontal,
             from_ends: [0, 1, 2].map(|i| Two([from_low[i], from_high[i]])),
             heights: Two([low[2], high[2]]),
-            reversed,
+            share: if reversed { -0.5 } else { 0.5 } / PI,
         })
     }
 
-    /// The jet of `phi` for a slip.
-    fn combine(&self, [gamma, both, rest]: &[[f64; 8]; 3], slip: &[f64; 3], k: f64) -> [f64; 8] {
+    /// Derivatives of `phi` for a slip.
+    fn combine<const D: usize>(
+        &self,
+        [gamma, both, rest]: &[[f64; D]; 3],
+        slip: &[f64; 3],
+        k: f64,
+    ) -> [f64; D] {
         let Direction { s, c, .. } = self.direction;
         let [x, y] = self.horizontal;
         let along = x * slip[0] + y * slip[1];
@@ -159,6 +193,24 @@ impl Edge {
         stress[3] += x * y * (s_ee - s_hh) + (x * x - y * y) * s_he;
         stress[4] -= depth * (x * zze - y * zzh);
         stress[5] -= depth * (y * zze + x * zzh);
+    }
+
+    /// Adds the displacement of `phi` at a depth.
+    fn add_displacement(
+        &self,
+        slopes: &[f64; 6],
+        poisson_ratio: f64,
+        depth: f64,
+        displacement: &mut [f64; 3],
+    ) {
+        let &[h, e, z, hz, ez, zz] = slopes;
+        let free = 0.5 - poisson_ratio;
+        let u_h = free * h + 0.5 * depth * hz;
+        let u_e = free * e + 0.5 * depth * ez;
+        let [x, y] = self.horizontal;
+        displacement[0] += x * u_e - y * u_h;
+        displacement[1] += y * u_e + x * u_h;
+        displacement[2] += (1.0 - poisson_ratio) * z - 0.5 * depth * zz;
     }
 }
 

@@ -23,6 +23,11 @@ impl Two {
     }
 
     #[inline(always)]
+    pub(super) fn map(self, function: impl Fn(f64) -> f64) -> Self {
+        Self(self.0.map(function))
+    }
+
+    #[inline(always)]
     pub(super) fn squared(self) -> Self {
         self * self
     }

@@ -1,5 +1,6 @@
 //! The sum of the three parts, against published numbers and the equations of a half space.
 
+mod displacement;
 mod published;
 
 use proptest::prelude::*;
