@@ -1,7 +1,11 @@
 //! The dense interaction of the cells of a surface.
 
+use std::fmt;
+
 use nalgebra::{SMatrix, SVector};
 use pulp::{Arch, Simd, WithSimd};
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
 use stickslip_core::compiled;
 
 use super::Triangles;
@@ -14,7 +18,6 @@ const ROUNDING: f64 = 1e-12;
 /// Numbers of each cell due to slip of all cells: `C` forces that resist slip [N/m], and its compression [Pa/m].
 ///
 /// A row has its columns by cell, then component of slip.
-#[derive(Debug)]
 pub(crate) struct Dense<const C: usize> {
     count: usize,
     shear: Vec<f64>,
@@ -57,8 +60,7 @@ compiled! {
             normal: vec![0.0; C * count * count],
             is_planar: false,
         };
-        let rows = found.shear.chunks_exact_mut(C * width);
-        for (i, (rows, row)) in rows.zip(found.normal.chunks_exact_mut(width)).enumerate() {
+        let work = |(i, (rows, row)): (usize, (&mut [f64], &mut [f64]))| {
             let area = elements.areas[i];
             for j in 0..count {
                 let (shear, compression) = elements.pair(i, j);
@@ -76,7 +78,17 @@ compiled! {
                     }
                 }
             }
-        }
+        };
+        #[cfg(feature = "rayon")]
+        (found.shear.par_chunks_exact_mut(C * width))
+            .zip(found.normal.par_chunks_exact_mut(width))
+            .enumerate()
+            .for_each(work);
+        #[cfg(not(feature = "rayon"))]
+        (found.shear.chunks_exact_mut(C * width))
+            .zip(found.normal.chunks_exact_mut(width))
+            .enumerate()
+            .for_each(work);
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let of_cell = |i: usize| {
             let shear = &found.shear[C * width * i..C * width * (i + 1)];
@@ -85,6 +97,12 @@ compiled! {
         };
         found.is_planar = (0..count).all(of_cell);
         found
+    }
+}
+
+impl<const C: usize> fmt::Debug for Dense<C> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "Dense({} cells)", self.count)
     }
 }
 

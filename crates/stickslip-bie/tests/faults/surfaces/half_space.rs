@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
-use stickslip_bie::{RectangularDislocation, TriangularDislocation};
+use stickslip_bie::{KernelError, RectangularDislocation, TriangularDislocation};
 
 use super::axes;
 use super::dislocation::TRIANGLE;
@@ -115,11 +115,108 @@ fn a_fan_is_a_rectangle() -> Outcome {
     Ok(())
 }
 
+/// A strip of two triangles, much longer than deep, is a segment in plane strain, and antiplane.
+#[test]
+fn long_strips_are_segments() -> Outcome {
+    // By the potentials of edge and screw dislocations in a half space, `mu = 1`, `nu = 1/4`.
+    let in_plane = [
+        -0.026_754_701_390_6,
+        0.040_392_948_991_3,
+        0.058_687_316_684_1,
+    ];
+    let antiplane = [-0.038_005_102_790_0, 0.038_279_507_864_3];
+    for (half, within) in [(1e2, 2e-4), (1e3, 2e-6), (1e4, 2e-8)] {
+        let [a, b] = [[1.0, -2.0], [3.0, -7.0]];
+        let point = |[x, z]: [f64; 2], y: f64| [x, y, z];
+        // Slip of the left side, as seen along the segment.
+        let triangles = [
+            [point(a, -half), point(a, half), point(b, half)],
+            [point(a, -half), point(b, half), point(b, -half)],
+        ];
+        let mut sums = [Matrix3::zeros(); 2];
+        for corners in triangles {
+            let source = TriangularDislocation::half_space(corners, 1.0, 0.25)?;
+            assert!(axes(corners)[2].x < 0.0);
+            for (sum, slip) in sums.iter_mut().zip([[0.6, 0.0, 0.8], [0.0, 1.0, 0.0]]) {
+                *sum -= source.stress(slip, [-1.0, 0.0, -3.0]);
+            }
+        }
+        let found = [sums[0][(0, 0)], sums[0][(2, 2)], sums[0][(0, 2)]];
+        for (found, expected) in found.into_iter().zip(in_plane) {
+            assert!(
+                (found - expected).abs() < within,
+                "{half}: {found} {expected}"
+            );
+        }
+        let found = [sums[1][(0, 1)], sums[1][(1, 2)]];
+        for (found, expected) in found.into_iter().zip(antiplane) {
+            assert!(
+                (found - expected).abs() < within,
+                "{half}: {found} {expected}"
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Triangles of half a metre 10 km away are points: as large ones, up to the square of their size by the distance.
+#[test]
+fn small_triangles_far_away_are_points() -> Outcome {
+    let around = [[0.9, 0.1, 0.3], [-0.8, 0.5, -0.4], [-0.1, -0.6, 0.1]];
+    let of = |size: f64, at: [f64; 3]| -> Outcome<Matrix3<f64>> {
+        let corners = around.map(|[x, y, z]| [x * size, y * size, z * size - 6e3]);
+        let source = TriangularDislocation::half_space(corners, 1.0, 0.25)?;
+        Ok(source.stress([0.3, -0.7, 0.5], at) / (size * size))
+    };
+    for at in [
+        [1e4, 0.0, 0.0],
+        [7e3, -7e3, -2e3],
+        [1.0, 2.0, -16e3],
+        [300.0, 1e4, -6e3],
+    ] {
+        let expected = of(20.0, at)?;
+        let error = (of(0.5, at)? - expected).amax() / expected.amax();
+        assert!(error < 2e-5, "{at:?}: {error:e}");
+    }
+    Ok(())
+}
+
 fn points() -> impl Strategy<Value = [[f64; 3]; 5]> {
     prop::array::uniform5([-3.0..3.0, -3.0..3.0, -4.0..0.0])
 }
 
 proptest! {
+    /// Triangles about any point of a rectangle of any dip and depth are the rectangle.
+    #[test]
+    fn a_random_fan_is_a_rectangle(
+        dip in 3.0..90.0_f64,
+        [top, length, width] in [0.0..3.0, 0.5..4.0, 0.5..4.0_f64],
+        [u, v] in [0.1..0.9, 0.1..0.9_f64],
+        at in [-6.0..6.0, -6.0..6.0, -6.0..0.0_f64],
+        slip in [-1.0..1.0, -1.0..1.0_f64],
+    ) {
+        let (sin, cos) = dip.to_radians().sin_cos();
+        let point = |x: f64, down: f64| [x, -down * cos, -down * sin];
+        // Away from its plane.
+        prop_assume!((at[1] * sin - at[2] * cos).abs() > 0.1);
+        let failed = |error: KernelError| TestCaseError::fail(error.to_string());
+        let square = RectangularDislocation::new([0.0, length], [top, top + width], dip, 1.0, 0.25)
+            .map_err(failed)?;
+        let corners = [[0.0, width], [length, width], [length, 0.0], [0.0, 0.0]];
+        let corners = corners.map(|[x, y]| point(x, top + y));
+        let middle = point(u * length, top + v * width);
+        let vector = [slip[0], slip[1] * cos, slip[1] * sin];
+        let mut sum = Matrix3::zeros();
+        for k in 0..4 {
+            let corners = [middle, corners[k], corners[(k + 1) % 4]];
+            let source = TriangularDislocation::half_space(corners, 1.0, 0.25).map_err(failed)?;
+            sum += source.stress(vector, at);
+        }
+        let expected = square.stress(slip, at);
+        let error = (sum - expected).amax();
+        prop_assert!(error < 1e-9 * (0.1 + expected.amax()), "{error:e} of {:e}", expected.amax());
+    }
+
     /// The surface is free of traction.
     #[test]
     fn the_surface_is_free([a, b, c, at, slip] in points(), touches in any::<bool>()) {
