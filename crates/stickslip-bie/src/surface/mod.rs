@@ -1,6 +1,8 @@
 //! Faults that are surfaces of triangles.
 
 mod dislocation;
+#[cfg_attr(not(test), allow(dead_code, reason = "receivers off the fault"))]
+mod displacement;
 mod edges;
 mod error;
 #[cfg_attr(not(test), allow(dead_code, reason = "the half space of triangles"))]
