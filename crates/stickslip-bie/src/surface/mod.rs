@@ -4,6 +4,8 @@ mod averaging;
 mod consistency;
 mod dense;
 mod dislocation;
+#[cfg_attr(not(test), allow(dead_code, reason = "receivers off the fault"))]
+mod displacement;
 mod edges;
 mod elements;
 mod error;

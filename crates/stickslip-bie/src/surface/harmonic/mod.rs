@@ -215,4 +215,4 @@ impl Edge {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -1,6 +1,6 @@
 //! The sum of the three parts, against published numbers and the equations of a half space.
 
-mod displacement;
+pub(crate) mod displacement;
 mod published;
 
 use proptest::prelude::*;
@@ -30,7 +30,7 @@ fn unit(a: [f64; 3]) -> [f64; 3] {
 }
 
 /// The triangle in a whole space: integrals of Peach and Koehler over its edges, as written.
-fn whole(triangle: &[[f64; 3]; 3], b: [f64; 3], nu: f64, p: [f64; 3]) -> [f64; 6] {
+pub(crate) fn whole(triangle: &[[f64; 3]; 3], b: [f64; 3], nu: f64, p: [f64; 3]) -> [f64; 6] {
     let mut sum = [0.0; 6];
     for n in 0..3 {
         let (a, c) = (triangle[n], triangle[(n + 1) % 3]);
@@ -71,7 +71,7 @@ fn whole(triangle: &[[f64; 3]; 3], b: [f64; 3], nu: f64, p: [f64; 3]) -> [f64; 6
     sum
 }
 
-fn half(triangle: &[[f64; 3]; 3], b: [f64; 3], nu: f64, p: [f64; 3]) -> [f64; 6] {
+pub(crate) fn half(triangle: &[[f64; 3]; 3], b: [f64; 3], nu: f64, p: [f64; 3]) -> [f64; 6] {
     let [harmonic] = stress(triangle, &[b], nu, p);
     let direct = whole(triangle, b, nu, p);
     let image = whole(triangle, b, nu, [p[0], p[1], -p[2]]);
@@ -80,7 +80,7 @@ fn half(triangle: &[[f64; 3]; 3], b: [f64; 3], nu: f64, p: [f64; 3]) -> [f64; 6]
 }
 
 /// Strike, up dip and normal of a triangle that is not horizontal.
-fn axes(triangle: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+pub(crate) fn axes(triangle: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let n = unit(cross(
         subtract(triangle[1], triangle[0]),
         subtract(triangle[2], triangle[0]),
@@ -90,7 +90,7 @@ fn axes(triangle: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
 }
 
 /// The largest modulus.
-fn largest(values: &[f64]) -> f64 {
+pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| x.abs().max(most))
 }
 
@@ -101,7 +101,7 @@ fn vertex() -> impl Strategy<Value = [f64; 3]> {
     (place.clone(), place, height).prop_map(|(x, y, z)| [x, y, z])
 }
 
-fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
+pub(crate) fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
     prop::array::uniform3(vertex()).prop_filter("degenerate", |triangle| {
         let [a, b] = [1, 2].map(|n| subtract(triangle[n], triangle[0]));
         let normal = cross(a, b);
@@ -109,12 +109,12 @@ fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
     })
 }
 
-fn slip() -> impl Strategy<Value = [f64; 3]> {
+pub(crate) fn slip() -> impl Strategy<Value = [f64; 3]> {
     prop::array::uniform3(-1.0..1.0)
 }
 
 /// The distance of a point from the lines of a triangle's edges, where sums of the test's own formula cancel.
-fn clearance(triangle: &[[f64; 3]; 3], point: [f64; 3]) -> f64 {
+pub(crate) fn clearance(triangle: &[[f64; 3]; 3], point: [f64; 3]) -> f64 {
     let distance = |n: usize| {
         let edge = unit(subtract(triangle[(n + 1) % 3], triangle[n]));
         let across = cross(subtract(point, triangle[n]), edge);
