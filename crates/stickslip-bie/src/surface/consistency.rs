@@ -4,10 +4,13 @@
 //! size of the cells: a zigzag between neighbours. On a plane the slip `a (r . e) phi(r)`, odd about the centroid of a
 //! cell, has no traction there, so that what the cells have is the error for this gradient. It is subtracted for the
 //! gradient that a cell and its three neighbours have.
+//!
+//! At a free surface the plane goes on above it, in reflected cells: there the slip goes on, which ends at other rims.
 
 use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
 
 use super::Triangles;
+use super::edges::Loop;
 use super::elements::Elements;
 
 /// The radius of `phi` by the root of a cell's area.
@@ -23,10 +26,15 @@ pub(crate) type Correction<const C: usize> = Vec<(usize, SMatrix<f64, C, C>)>;
 impl<const C: usize> Elements<C> {
     /// The correction at a cell; none where a neighbour is missing.
     pub(crate) fn correction(&self, cells: &Triangles, cell: usize) -> Correction<C> {
-        let &[Some(a), Some(b), Some(c)] = cells.neighbors(cell) else {
+        let neighbors = cells.neighbors(cell);
+        let ends = |k: usize| neighbors[k].is_none() && !self.is_at_surface(cells, cell, k);
+        if (0..3).any(ends) {
             return Vec::new();
-        };
-        let stencil = [cell, a, b, c];
+        }
+        let stencil: Vec<_> = [cell]
+            .into_iter()
+            .chain(neighbors.iter().copied().flatten())
+            .collect();
         let Some(weights) = self.gradient(cell, &stencil) else {
             return Vec::new();
         };
@@ -45,24 +53,36 @@ impl<const C: usize> Elements<C> {
         stencil.iter().zip(&weights).map(of).collect()
     }
 
+    /// Whether the edge from a corner to the next is at a free surface.
+    fn is_at_surface(&self, cells: &Triangles, cell: usize, k: usize) -> bool {
+        let corners = cells.corners(cell);
+        self.rock.has_surface() && corners[k][2] == 0.0 && corners[(k + 1) % 3][2] == 0.0
+    }
+
     /// The position of a cell as seen from another, along strike and up dip.
     fn seen(&self, from: usize, cell: usize) -> Vector2<f64> {
-        let apart = self.centroids[cell] - self.centroids[from];
+        self.position(from, &self.centroids[cell])
+    }
+
+    fn position(&self, from: usize, point: &Vector3<f64>) -> Vector2<f64> {
+        let apart = point - self.centroids[from];
         let [s, d, _] = &self.axes[from];
         Vector2::new(apart.dot(s), apart.dot(d))
     }
 
     /// The weights of a linear fit's gradient.
-    fn gradient(&self, cell: usize, stencil: &[usize; 4]) -> Option<[Vector2<f64>; 4]> {
-        let places = stencil.map(|other| self.seen(cell, other));
-        let mean = places.iter().sum::<Vector2<f64>>() * 0.25;
-        let places = places.map(|place| place - mean);
+    fn gradient(&self, cell: usize, stencil: &[usize]) -> Option<Vec<Vector2<f64>>> {
+        let places: Vec<_> = (stencil.iter())
+            .map(|&other| self.seen(cell, other))
+            .collect();
+        let mean = places.iter().sum::<Vector2<f64>>() / stencil.len() as f64;
+        let places: Vec<_> = places.iter().map(|place| place - mean).collect();
         let matrix: Matrix2<f64> = places.iter().map(|place| place * place.transpose()).sum();
         if matrix.determinant() < LINE * matrix.trace() * matrix.trace() {
             return None;
         }
         let inverse = matrix.try_inverse()?;
-        Some(places.map(|place| inverse * place))
+        Some(places.iter().map(|place| inverse * place).collect())
     }
 
     /// The traction along each direction of slip of the slip along strike and up dip that grows along either.
@@ -70,22 +90,44 @@ impl<const C: usize> Elements<C> {
         let radius = RADIUS * self.areas[cell].sqrt();
         let mut sums = [[[0.0; 2]; 2]; C];
         let [s, d, _] = self.axes[cell];
-        for other in self.about(cells, cell, REACH * radius) {
-            let place = self.seen(cell, other);
-            let distance = (self.centroids[other] - self.centroids[cell]).norm();
-            let phi = (-(distance / radius).powi(4)).exp();
-            let normal = self.axes[other][2];
+        let mut add = |source: &Loop, normal: &Vector3<f64>| {
+            let center = source.corners.iter().sum::<Vector3<f64>>() / 3.0;
+            let distance = (center - self.centroids[cell]).norm();
+            if distance >= REACH * radius {
+                return;
+            }
+            let place = self.position(cell, &center) * (-(distance / radius).powi(4)).exp();
             let slips = [s, d].map(|slip: Vector3<f64>| slip - normal * normal.dot(&slip));
-            let tractions = self.without_surface(cell, other, &slips);
+            let tractions = self.without_surface(cell, source, &slips);
             for (sums, direction) in sums.iter_mut().zip(&self.slips[cell]) {
                 for (sums, traction) in sums.iter_mut().zip(&tractions) {
-                    let along = traction.dot(direction) * phi;
+                    let along = traction.dot(direction);
                     sums[0] += along * place.x;
                     sums[1] += along * place.y;
                 }
             }
+        };
+        let about = self.about(cells, cell, REACH * radius);
+        let above = self.distance_to_surface(cells, cell, &about);
+        for &other in &about {
+            let (source, normal) = (&self.loops[other], &self.axes[other][2]);
+            add(source, normal);
+            let Some(above) = above else {
+                continue;
+            };
+            let reflected = |v: &Vector3<f64>, line: f64| v + d * (2.0 * (line - v.dot(&d)));
+            let line = self.centroids[cell].dot(&d) + above;
+            let [a, b, c] = source.corners.each_ref().map(|v| reflected(v, line));
+            add(&Loop::new([a, c, b]), &reflected(normal, 0.0));
         }
         sums
+    }
+
+    /// The distance up dip from a centroid to a free surface that cells about it reach.
+    fn distance_to_surface(&self, cells: &Triangles, cell: usize, about: &[usize]) -> Option<f64> {
+        let reach = |&other: &usize| (0..3).any(|k| self.is_at_surface(cells, other, k));
+        let distance = -self.centroids[cell].z / self.axes[cell][1].z;
+        (about.iter().any(reach) && distance > 0.0).then_some(distance)
     }
 
     /// The cells of the sheet about a cell, connected across edges within a distance.

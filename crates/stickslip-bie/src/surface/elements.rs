@@ -10,7 +10,7 @@ use super::rock::Rock;
 #[derive(Debug)]
 pub(crate) struct Elements<const C: usize> {
     pub(super) rock: Rock,
-    loops: Vec<Loop>,
+    pub(super) loops: Vec<Loop>,
     pub(super) centroids: Vec<Vector3<f64>>,
     pub(super) areas: Vec<f64>,
     /// Strike, up dip and normal.
@@ -67,14 +67,14 @@ impl<const C: usize> Elements<C> {
         )
     }
 
-    /// The tractions at the centroid of a cell of slips of another as if in a whole space.
+    /// The tractions at the centroid of a cell of slips of a triangle, as if in a whole space.
     pub(super) fn without_surface<const S: usize>(
         &self,
         receiver: usize,
-        source: usize,
+        source: &Loop,
         slips: &[Vector3<f64>; S],
     ) -> [Vector3<f64>; S] {
         let (at, normal) = (&self.centroids[receiver], &self.axes[receiver][2]);
-        (self.rock).without_surface(&self.loops[source], at, normal, slips)
+        self.rock.without_surface(source, at, normal, slips)
     }
 }

@@ -23,7 +23,7 @@ const MEMORY: usize = 2 << 30;
 /// **Correction.** Tractions of constant slip on triangles do not converge: they have an error in proportion to the
 /// gradient of slip, 2.5 % of the peak for smooth slip at any size of cells. Four numbers per cell and component remove it,
 /// to .7, .3 and .1 % at 2, 4 and 8 cells per length of slip; they are on unless
-/// [`without_correction`](Self::without_correction).
+/// [`without_correction`](Self::without_correction). At a free surface slip goes on beyond the rim; cells at other rims are left.
 ///
 /// **Averaging.** On a curved surface the normal stress has such an error, too: its mean over cells that share a vertex is
 /// ten times more accurate; it is taken unless [`without_averaging`](Self::without_averaging). At a sharp bend the normal

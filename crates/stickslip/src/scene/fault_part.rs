@@ -164,6 +164,71 @@ impl<const C: usize> From<&stickslip_bie::FaultSystem<C>> for BoundaryPart {
     }
 }
 
+/// A point has three coordinates: those of the triangles.
+impl From<&stickslip_bie::SurfaceSection> for BoundaryPart {
+    fn from(section: &stickslip_bie::SurfaceSection) -> Self {
+        Self {
+            vertices: section.vertices().to_vec(),
+            weights: section.areas().to_vec(),
+            points: section.points().to_vec(),
+            normals: Vec::new(),
+            axes: Vec::new(),
+            opposite: None,
+            dimension: 3,
+            mesh: Some(section.identity()),
+        }
+    }
+}
+
+/// All triangles of a surface.
+///
+/// ```
+/// use stickslip::bie::{Medium, SurfaceFault, Triangles};
+/// use stickslip::friction::RegularizedDieterichRuina;
+/// use stickslip::nalgebra::Vector1;
+/// use stickslip::state::{Dieterich, LogTheta};
+/// use stickslip::{Contact, RungeKutta, Scene, Steps};
+///
+/// // A fault that bends: two quadrangles of 1 km, of two triangles each.
+/// let points = [
+///     [0.0, 0.0, 0.0], [1e3, 0.0, 0.0], [2e3, 400.0, 0.0],
+///     [0.0, 0.0, -1e3], [1e3, 0.0, -1e3], [2e3, 400.0, -1e3],
+/// ];
+/// let cells = Triangles::new(&points, &[[0, 3, 1], [1, 3, 4], [1, 4, 2], [2, 4, 5]])?;
+/// let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
+/// let fault = SurfaceFault::half_space(cells, rock, 0.25)?;
+/// // Right-lateral slip along x: one plate vector, tangential on each cell.
+/// let plate = [1e-9, 0.0, 0.0];
+/// let rakes = fault.rakes_along(plate);
+/// let fault = fault.with_rakes(&rakes)?;
+/// let rates = fault.along(plate);
+/// let law = RegularizedDieterichRuina {
+///     a: 0.015,
+///     b: 0.010,
+///     reference_friction: 0.6,
+///     reference_velocity: 1e-6,
+///     slip_distance: 0.1,
+/// };
+/// let contact = Contact::new(&fault, law, 50e6)
+///     .with_state(Dieterich { slip_distance: 0.1 }, LogTheta(1e8_f64.ln()))
+///     .with_shear_stress(Vector1::new(28.27e6));
+/// let scene = Scene::new(fault.stiffness())
+///     .with_viscosity(fault.radiation_damping())
+///     .with_load_history(fault.back_slip(&rates)?)
+///     .with_normal_stress_change(fault.normal_stiffness(), rates)
+///     .with_contact(contact);
+/// let mut motion = RungeKutta::new(scene)?;
+/// motion.run(&Steps::adaptive(1e-6).until(1e8), |_| ())?;
+/// // It creeps with the plates.
+/// assert!((motion.snapshot().displacement[0][0] - 0.1).abs() < 0.03);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl<const C: usize> From<&stickslip_bie::SurfaceFault<C>> for BoundaryPart {
+    fn from(fault: &stickslip_bie::SurfaceFault<C>) -> Self {
+        FaultGeometry::cells(fault).into()
+    }
+}
+
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// The scene of a fault by boundary integrals, of one's own, too: its stiffness, radiation damping, plate loading at a
     /// plate velocity [m/s], and normal stress that follows its slip. Contacts on its cells complete it.

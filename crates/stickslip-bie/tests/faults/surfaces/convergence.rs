@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{DMatrix, Vector1, Vector3};
-use stickslip_bie::{Medium, SurfaceFault, Triangles};
+use nalgebra::{DMatrix, Matrix3, Vector1, Vector2, Vector3};
+use stickslip_bie::{Medium, RectangularDislocation, SurfaceFault, Triangles};
 use stickslip_solvers::{Matrix, Operator};
 
-use super::meshes::{disc, equilateral, sphere};
+use super::meshes::{disc, equilateral, grid, sphere};
 use crate::Outcome;
 
 const ROCK: Medium = Medium {
@@ -74,6 +74,77 @@ fn without_correction_they_do_not() -> Outcome {
     for side in [0.5, 0.25] {
         let error = error_of_gaussian(side / 2f64.sqrt(), false)?;
         assert!(error > 0.02, "{side}: {error}");
+    }
+    Ok(())
+}
+
+/// The traction of slip `exp(-r^2)` along strike about a point of the surface, by small rectangles, each with its centre at
+/// the receiver's distance along strike and down dip.
+fn of_gaussian_at_surface(dip: f64, [x, down]: [f64; 2]) -> Outcome<f64> {
+    let (sin, cos) = dip.to_radians().sin_cos();
+    // The receiver is in the middle of a row.
+    let side = down / ((down / 0.06).floor() + 0.5);
+    let at = [x, -down * cos, -down * sin];
+    let mut stress = Matrix3::zeros();
+    for row in 0..(2.5 / side) as i32 {
+        for column in -60..=60 {
+            let [left, top] = [x + (f64::from(column) - 0.5) * side, f64::from(row) * side];
+            let [u, v] = [left + 0.5 * side, top + 0.5 * side];
+            let slip = (-u * u - v * v).exp();
+            if slip > 1e-3 {
+                let (along, down) = ([left, left + side], [top, top + side]);
+                let cell = RectangularDislocation::new(along, down, dip, 1.0, 0.25)?;
+                stress += cell.stress([slip, 0.0], at);
+            }
+        }
+    }
+    // Along strike, on the plane with the normal (0, -sin, cos).
+    Ok(-sin * stress[(0, 1)] + cos * stress[(0, 2)])
+}
+
+/// The root mean square of the error in the first rows below a free surface, by the largest traction.
+fn errors_at_surface(dip: f64) -> Outcome<[f64; 2]> {
+    let (sin, cos) = dip.to_radians().sin_cos();
+    let (columns, side) = (24, 0.2);
+    let (points, triangles) = grid([columns, 12], |[x, y]| {
+        let (x, down) = (side * (x - 12.0), side * y);
+        [x, -down * cos, -down * sin]
+    });
+    let cells = Triangles::new(&points, &triangles)?;
+    let fault = SurfaceFault::half_space(cells, ROCK, 0.25)?;
+    let sign = fault.cells().axes(0).strike[0];
+    let down = |[_, y, z]: [f64; 3]| y.hypot(z);
+    let slip = |at: [f64; 3]| Vector2::new(sign * (-at[0] * at[0] - down(at).powi(2)).exp(), 0.0);
+    let slip = fault.cells().map(slip);
+    let mut found = [0.0; 2];
+    for (sum, fault) in found
+        .iter_mut()
+        .zip([fault.clone(), fault.without_correction()])
+    {
+        let mut forces = vec![Vector2::zeros(); slip.len()];
+        fault.stiffness().multiply_add(1.0, &slip, &mut forces);
+        let (mut count, mut largest) = (0.0, 0.0_f64);
+        for cell in 0..4 * columns {
+            let at = fault.cells().centroid(cell);
+            if at[0].abs() < 0.5 {
+                let traction = -sign * forces[cell][0] / fault.cells().area(cell);
+                let exact = of_gaussian_at_surface(dip, [at[0], down(at)])?;
+                *sum += (traction - exact).powi(2);
+                largest = largest.max(exact.abs());
+                count += 1.0;
+            }
+        }
+        *sum = (*sum / count).sqrt() / largest;
+    }
+    Ok(found)
+}
+
+/// The correction is that of a plane that goes on above the free surface.
+#[test]
+fn tractions_below_a_free_surface_are_corrected() -> Outcome {
+    for dip in [90.0, 60.0, 40.0] {
+        let [corrected, raw] = errors_at_surface(dip)?;
+        assert!(corrected < 0.5 * raw, "{dip}: {corrected} {raw}");
     }
     Ok(())
 }
