@@ -51,6 +51,62 @@ fn a_straight_polyline_is_bp3() -> Outcome {
     Ok(())
 }
 
+/// A thrust of triangles, 12 km x 12 km at 60 degrees down from the surface, as a file of Gmsh with one group.
+fn thrust() -> String {
+    let side = 7;
+    let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n");
+    text += &format!(
+        "2 4 \"thrust\"\n$EndPhysicalNames\n$Nodes\n{}\n",
+        side * side
+    );
+    for j in 0..side {
+        for i in 0..side {
+            let down = 2e3 * f64::from(j);
+            let (x, y, z) = (2e3 * f64::from(i), 0.5 * down, -down * 0.75_f64.sqrt());
+            text += &format!("{} {x} {y} {z}\n", side * j + i + 1);
+        }
+    }
+    let squares = (0..side - 1).flat_map(|j| (1..side).map(move |i| side * j + i));
+    let cells = squares.flat_map(|a| [[a, a + 1, a + side + 1], [a, a + side + 1, a + side]]);
+    let lines: Vec<String> = (1..)
+        .zip(cells)
+        .map(|(number, [a, b, c])| format!("{number} 2 2 4 1 {a} {b} {c}\n"))
+        .collect();
+    text += &format!("$EndNodes\n$Elements\n{}\n", lines.len());
+    text + &lines.concat() + "$EndElements\n"
+}
+
+/// Triangles are loaded as their slip is, and slip fastest where friction strengthens least.
+#[test]
+fn triangles_are_faults_too() -> Outcome {
+    let out = folder("faults-triangles")?;
+    let file = out.join("thrust.msh");
+    fs::write(&file, thrust())?;
+    let line = format!("--faults {} --groups thrust --years 20", file.display());
+    let found = run(&line, &out)??;
+    assert_eq!((&found["cells"], &found["faults"]), (&72.into(), &1.into()));
+    // Slip in a strengthening or stable part is that of the plate at most, and none is ahead of it without an event.
+    let events = found["event_times_years"].as_array().ok_or("no list")?;
+    let largest = found["largest_slip"].as_f64().ok_or("no slip")?;
+    assert!(
+        events.is_empty() && largest > 0.0 && largest < 0.65,
+        "{largest}"
+    );
+    // Cells and their slip.
+    let table = fs::read_to_string(out.join("cells.csv"))?;
+    assert_eq!(table.lines().count(), 73);
+    for (rest, told) in [
+        ("--cell 100", "settings of polylines"),
+        ("--groups flat", "flat"),
+        ("--rake inf", "rake"),
+    ] {
+        let line = format!("--faults {} --years 1 {rest}", file.display());
+        let error = run(&line, &out)?.err().ok_or(rest)?;
+        assert!(error.contains(told), "{rest}: {error}");
+    }
+    Ok(())
+}
+
 #[test]
 fn wrong_faults_are_told_in_a_line() -> Outcome {
     let out = folder("faults-wrong")?;

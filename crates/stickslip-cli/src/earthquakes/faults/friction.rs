@@ -1,12 +1,12 @@
 //! Friction of cells by depth.
 
-use stickslip::bie::Segments;
 use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
 use stickslip::problems::bp1;
 use stickslip::state::LogTheta;
 
 use super::super::Failed;
 use super::FaultFile;
+use super::layout::Layout;
 use crate::table::{Format, Table};
 
 /// The friction laws of cells, and their initial normal stress \[Pa\].
@@ -25,12 +25,15 @@ const COLUMNS: [(&str, bool); 5] = [
 ];
 
 impl Strengths {
-    /// Those of a table by depth, linear between its rows; without one those of BP1 by the distance down dip.
-    pub(super) fn new(settings: &FaultFile, cells: &Segments) -> Result<Self, Failed> {
+    /// Those of a table by depth, linear between its rows; without one those of BP1 by the distance down dip, or by depth.
+    pub(super) fn new(settings: &FaultFile, cells: &Layout) -> Result<Self, Failed> {
         let Some(path) = &settings.friction else {
-            let laws = cells.distances().into_iter().map(bp1::friction).collect();
+            let laws = cells
+                .downward
+                .iter()
+                .map(|&distance| bp1::friction(distance));
             return Ok(Self {
-                laws,
+                laws: laws.collect(),
                 normal_stress: vec![bp1::NORMAL_STRESS; cells.count()],
             });
         };
@@ -41,7 +44,7 @@ impl Strengths {
             normal_stress: Vec::new(),
         };
         for cell in 0..cells.count() {
-            let depth = -cells.center(cell)[1];
+            let depth = -cells.centers[cell][2];
             let Some([_, a, b, slip_distance, normal_stress]) = at(&rows, depth) else {
                 return Err(format!(
                     "{}: cell {cell} is at a depth of {depth} m, the table reaches from {} m to {} m; add a row",

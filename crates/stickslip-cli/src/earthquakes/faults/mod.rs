@@ -1,16 +1,16 @@
-//! Earthquake cycles on faults of a file: bent, branched or several.
+//! Earthquake cycles on faults of a file, of polylines or triangles: bent, branched or several.
 
 mod arguments;
 mod friction;
+mod layout;
 mod record;
 
-use std::fs::File;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::bie::{FaultGeometry, Mode, SegmentFault, Segments};
+use stickslip::bie::FaultGeometry;
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::bp1::{MEDIUM, PLATE_RATE};
 use stickslip::record::EventCatalogue;
@@ -19,10 +19,10 @@ use stickslip::{BoundaryPart, Contact, RungeKutta, Scene};
 
 pub use arguments::FaultFile;
 
-use super::bp3::POISSON_RATIO;
 use super::{Arguments, Failed, YEAR, state_for};
 use crate::progress::Progress;
 use friction::Strengths;
+use layout::Layout;
 use record::Record;
 
 /// The slip rate at which an event begins [m/s]; it ends at a tenth of it.
@@ -33,20 +33,37 @@ const FILES: [&str; 5] = [
     "events.csv",
     "history.csv",
     "cells.csv",
-    "slip_rate_map.png",
     "summary.json",
+    "slip_rate_map.png",
 ];
 
 /// Takes the steps, and writes and prints the results.
 pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<(), Failed> {
+    if layout::has_triangles(path) {
+        let fault = layout::triangles(arguments, path)?;
+        return run_on(arguments, &fault, &Layout::of_triangles(fault.cells()));
+    }
+    let fault = layout::segments(arguments, path)?;
+    run_on(arguments, &fault, &Layout::of_segments(fault.cells()))
+}
+
+fn run_on(
+    arguments: &Arguments,
+    fault: &impl FaultGeometry<1>,
+    cells: &Layout,
+) -> Result<(), Failed> {
     let settings = &arguments.fault_file;
-    let fault = fault(arguments, path)?;
-    let cells = fault.cells();
     let strengths = Strengths::new(settings, cells)?;
-    say!("{}", told(cells))?;
+    say!("{}", cells.told)?;
     let rate = settings.plate_rate.unwrap_or(PLATE_RATE);
-    let mut motion = RungeKutta::new(scene(&fault, &strengths, rate)?)?;
-    let output = arguments.files.create("earthquakes", &FILES)?;
+    let mut motion = RungeKutta::new(scene(fault, &strengths, rate)?)?;
+    // A surface has no line for a picture.
+    let files = if cells.lines.is_empty() {
+        &FILES[..4]
+    } else {
+        &FILES
+    };
+    let output = arguments.files.create("earthquakes", files)?;
     let mut record = Record::new(cells, arguments.end(), EVENT);
     let limits = [EVENT, 0.1 * EVENT];
     let mut catalogue =
@@ -66,12 +83,11 @@ pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<(), Failed> {
     // One under way at the end has no arrest.
     let under_way = catalogue.under_way(&motion.snapshot());
     output.events(FILES[0], catalogue.events().iter().chain(&under_way))?;
-    record.write(&output, &fault, &strengths, [FILES[1], FILES[2], FILES[3]])?;
+    record.write(&output, cells, &strengths, [FILES[1], FILES[2], FILES[4]])?;
     let summary = json!({
         "faults": cells.fault_count(),
         "cells": cells.count(),
-        "mode": if settings.antiplane { "antiplane" } else { "plane strain" },
-        "largest_bend_degrees": cells.quality().largest_bend,
+        "largest_bend_degrees": cells.largest_bend,
         "plate_rate": rate,
         "tolerance": arguments.adaptive,
         "event_times_years": record.events().years(),
@@ -83,66 +99,24 @@ pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<(), Failed> {
         "rejected": report.rejected + report.failed,
         "seconds": seconds,
     });
-    output.json(FILES[4], &summary)?;
+    output.json(FILES[3], &summary)?;
     record.say()?;
     say!(
         "{} cells, {} steps, {} taken back, {seconds:.1} s; {}",
         cells.count(),
         record.steps(),
         report.rejected + report.failed,
-        output.told(&FILES)
-    )
-}
-
-/// The faults of a table, in cells.
-fn fault(arguments: &Arguments, path: &Path) -> Result<SegmentFault, Failed> {
-    let name = path.display();
-    let file = File::open(path).map_err(|cause| format!("cannot read {name}: {cause}"))?;
-    let wrong = |error| Failed::from(format!("{name}: {error}"));
-    let lines = Segments::from_csv(file).map_err(wrong)?;
-    let cells = lines.divided(arguments.cell()).map_err(wrong)?;
-    let mode = if arguments.fault_file.antiplane {
-        Mode::Antiplane
-    } else {
-        Mode::InPlane {
-            poisson_ratio: POISSON_RATIO,
-        }
-    };
-    let fault = SegmentFault::half_space(cells, MEDIUM, mode).map_err(wrong)?;
-    Ok(fault.with_sense(arguments.sense()))
-}
-
-/// What the cells are like, in a line: their extent tells kilometres from metres.
-fn told(cells: &Segments) -> String {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for end in (0..cells.count()).flat_map(|cell| cells.ends(cell)) {
-        for k in 0..2 {
-            (low[k], high[k]) = (low[k].min(end[k]), high[k].max(end[k]));
-        }
-    }
-    let quality = cells.quality();
-    let bend = quality
-        .largest_bend_between
-        .map_or_else(String::new, |[cell, _]| {
-            let bend = quality.largest_bend;
-            format!(", largest bend {bend:.2} degrees behind cell {cell}")
-        });
-    let number = cells.fault_count();
-    let faults = if number == 1 { "fault" } else { "faults" };
-    let ([x0, z0], [x1, z1]) = (low, high);
-    format!(
-        "{} cells on {number} {faults}, x from {x0:.1} m to {x1:.1} m, z from {z0:.1} m to {z1:.1} m{bend}",
-        cells.count(),
+        output.told(files)
     )
 }
 
 /// The scene of faults that start at the plate rate, under the least ratio of shear to normal stress at which a cell slides
 /// steadily.
-fn scene(
-    fault: &SegmentFault,
+fn scene<G: FaultGeometry<1>>(
+    fault: &G,
     strengths: &Strengths,
     rate: f64,
-) -> Result<Scene<<SegmentFault as FaultGeometry<1>>::Kernel, 1>, Failed> {
+) -> Result<Scene<G::Kernel, 1>, Failed> {
     let Strengths {
         laws,
         normal_stress,

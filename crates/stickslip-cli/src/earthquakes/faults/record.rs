@@ -1,12 +1,12 @@
 //! The record of faults of a file.
 
 use stickslip::Snapshot;
-use stickslip::bie::{SegmentFault, Segments};
 
 use super::super::events::Events;
 use super::super::space_time::SpaceTime;
 use super::super::{Failed, YEAR, pictures};
 use super::friction::Strengths;
+use super::layout::Layout;
 use crate::output::{Output, number};
 
 /// What is seen of a run.
@@ -16,25 +16,20 @@ pub(super) struct Record {
     rates: Vec<SpaceTime>,
     /// Time, the largest slip rate, and the least and the largest normal stress.
     rows: Vec<[f64; 4]>,
-    largest_slip: f64,
+    /// The slip of each cell so far \[m\].
+    slip: Vec<f64>,
     steps: usize,
 }
 
 impl Record {
     /// A record of events from a slip rate on [m/s], until a time \[s\].
-    pub(super) fn new(cells: &Segments, end: f64, event: f64) -> Self {
-        let distances = cells.distances();
-        let lines = (0..cells.fault_count()).map(|fault| {
-            let line: Vec<(usize, f64)> = (cells.cells_of(fault))
-                .map(|cell| (cell, distances[cell] / 1e3))
-                .collect();
-            SpaceTime::new(&line, end)
-        });
+    pub(super) fn new(cells: &Layout, end: f64, event: f64) -> Self {
+        let lines = cells.lines.iter().map(|line| SpaceTime::new(line, end));
         Self {
             events: Events::new(event, cells.count()),
             rates: lines.collect(),
             rows: Vec::new(),
-            largest_slip: 0.0,
+            slip: vec![0.0; cells.count()],
             steps: 0,
         }
     }
@@ -50,7 +45,7 @@ impl Record {
         for k in 0..contact.len() {
             let stress = contact.normal_stress(k);
             (low, high) = (low.min(stress), high.max(stress));
-            self.largest_slip = self.largest_slip.max(contact.slip(k));
+            self.slip[k] = contact.slip(k);
         }
         self.rows
             .push([at.time, contact.max_slip_rate(), low, high]);
@@ -62,7 +57,7 @@ impl Record {
 
     /// The largest slip anywhere \[m\].
     pub(super) fn largest_slip(&self) -> f64 {
-        self.largest_slip
+        self.slip.iter().copied().fold(0.0, f64::max)
     }
 
     /// The least and the largest normal stress of the run \[Pa\].
@@ -81,7 +76,7 @@ impl Record {
     pub(super) fn write(
         &self,
         output: &Output,
-        fault: &SegmentFault,
+        cells: &Layout,
         strengths: &Strengths,
         [history, cells_file, map]: [&str; 3],
     ) -> Result<(), Failed> {
@@ -91,25 +86,29 @@ impl Record {
             columns,
             self.rows.iter().map(|row| row.map(number)),
         )?;
-        let (cells, distances) = (fault.cells(), fault.cells().distances());
         let rows = (0..cells.count()).map(|cell| {
-            let ([x, z], law) = (cells.center(cell), strengths.laws[cell]);
+            let ([x, y, z], law) = (cells.centers[cell], strengths.laws[cell]);
             let numbers = [
-                cells.fault_of(cell) as f64,
+                cells.faults[cell] as f64,
                 x,
+                y,
                 z,
-                cells.length(cell),
-                distances[cell],
-                cells.bend_at(cell),
+                cells.sizes[cell],
+                cells.downward[cell],
+                cells.bends[cell],
                 law.a,
                 law.b,
                 law.slip_distance,
                 strengths.normal_stress[cell],
+                self.slip[cell],
             ];
             numbers.map(number)
         });
-        let columns = "fault,x,z,length,distance,bend,a,b,slip_distance,normal_stress";
+        let columns = "fault,x,y,z,size,downward,bend,a,b,slip_distance,normal_stress,slip";
         output.table(cells_file, columns, rows)?;
+        if self.rates.is_empty() {
+            return Ok(());
+        }
         let names: Vec<String> = (0..self.rates.len())
             .map(|fault| format!("fault {fault}: distance [km]"))
             .collect();
