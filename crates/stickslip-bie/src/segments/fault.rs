@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use super::influence::{Influence, Traction};
 use super::potentials::Space;
 use super::rows::Rows;
-use super::{SegmentKernel, SegmentNormalKernel, Segments, SegmentsError, surface};
+use super::{SegmentKernel, SegmentNormalKernel, Segments, SegmentsError, separation, surface};
 use crate::fault::{check_medium, check_poisson_ratio};
 use crate::{KernelError, Medium, Mode, Section, Sense};
 
@@ -85,8 +85,8 @@ impl SegmentFault {
     /// to 0.
     ///
     /// # Errors
-    /// [`SegmentsError`] for rock or mode out of their ranges, cells above the surface or along it, ends right below it, and
-    /// more cells than 2000.
+    /// [`SegmentsError`] for rock or mode out of their ranges, cells above the surface or along it, ends right below it,
+    /// centres of cells that are too near to other cells, and more cells than 2000.
     pub fn half_space(segments: Segments, rock: Medium, mode: Mode) -> Result<Self, SegmentsError> {
         Self::new(surface::below(segments)?, rock, mode, true)
     }
@@ -94,7 +94,8 @@ impl SegmentFault {
     /// Faults in a whole space.
     ///
     /// # Errors
-    /// [`SegmentsError`] for rock or mode out of their ranges, and more cells than 2000.
+    /// [`SegmentsError`] for rock or mode out of their ranges, centres of cells that are too near to other cells, and more
+    /// cells than 2000.
     pub fn whole_space(
         segments: Segments,
         rock: Medium,
@@ -123,6 +124,7 @@ impl SegmentFault {
                 most: DENSE,
             });
         }
+        separation::check(&segments)?;
         Ok(Self {
             segments,
             rock,

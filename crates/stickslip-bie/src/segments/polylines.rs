@@ -50,8 +50,9 @@ impl Segments {
     /// One fault: cells between these points, in a row. A polyline that ends at its first point is closed.
     ///
     /// # Errors
-    /// [`SegmentsError`] for less than two points, points that are not finite, cells of no length, cells that are the
-    /// same or cross, and centres of cells that are too near to other cells.
+    /// [`SegmentsError`] for less than two points, points that are not finite, cells of no length, and cells that are the
+    /// same or cross. Centres of cells may be too near to other cells of a [`SegmentFault`](crate::SegmentFault), which
+    /// refuses them, until they are [`divided`](Self::divided).
     pub fn polyline(points: &[[f64; 2]]) -> Result<Self, SegmentsError> {
         Self::polylines([points])
     }
@@ -94,14 +95,14 @@ impl Segments {
             return Err(SegmentsError::NoFault);
         }
         let segments = Self { ends, faults };
-        separation::check(&segments)?;
+        separation::check_lines(&segments)?;
         Ok(segments)
     }
 
     /// These faults and others, whose cells follow.
     ///
     /// # Errors
-    /// [`SegmentsError`] for cells that are the same, cross, or are too near to each other.
+    /// [`SegmentsError`] for cells that are the same or cross.
     pub fn with(&self, others: &Self) -> Result<Self, SegmentsError> {
         let count = self.count();
         let moved = |cells: &Range<usize>| count + cells.start..count + cells.end;
@@ -127,8 +128,7 @@ impl Segments {
     /// The same faults with each cell divided into equal ones of at most `length` \[m\].
     ///
     /// # Errors
-    /// [`SegmentsError`] for a length that is not positive and finite, for more than a million cells, and for shorter
-    /// cells that come too near to each other at a sharp bend.
+    /// [`SegmentsError`] for a length that is not positive and finite, and for more than a million cells.
     pub fn divided(&self, length: f64) -> Result<Self, SegmentsError> {
         crate::error::positive("length [m] of cells", length)?;
         let parts = |cell: usize| (self.length(cell) / length * (1.0 - 1e-12)).ceil().max(1.0);

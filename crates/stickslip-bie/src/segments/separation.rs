@@ -9,8 +9,14 @@ const APART_AT_ENDS: f64 = 0.1;
 /// The share of a length below which points coincide.
 const ROUNDING: f64 = 1e-9;
 
-/// Refuses cells without length, cells that are the same or cross, and centres of cells near to others.
+/// Refuses cells that are none, and centres of cells near to others: stress there is that of a corner.
 pub(super) fn check(segments: &Segments) -> Result<(), SegmentsError> {
+    check_lines(segments)?.map_or(Ok(()), Err)
+}
+
+/// Refuses cells without length, and cells that are the same or cross; finds a centre near to another cell, which shorter
+/// cells may mend.
+pub(super) fn check_lines(segments: &Segments) -> Result<Option<SegmentsError>, SegmentsError> {
     let boxes: Vec<_> = (0..segments.count())
         .map(|cell| reach(segments, cell))
         .collect();
@@ -50,7 +56,7 @@ pub(super) fn check(segments: &Segments) -> Result<(), SegmentsError> {
             }
         }
     }
-    near.map_or(Ok(()), Err)
+    Ok(near)
 }
 
 /// The extents of all cells along both axes.

@@ -51,6 +51,21 @@ fn a_straight_polyline_is_bp3() -> Outcome {
     Ok(())
 }
 
+/// Two long lines are far enough from each other once they are divided into cells.
+#[test]
+fn lines_are_divided_before_they_are_faults() -> Outcome {
+    let out = folder("faults-two")?;
+    let table = out.join("two.csv");
+    fs::write(
+        &table,
+        "x,z,fault\n0,0,1\n10e3,-17e3,1\n8e3,0,2\n18e3,-17e3,2\n",
+    )?;
+    let line = format!("--faults {} --cell 1000 --years 1", table.display());
+    let found = run(&line, &out)??;
+    assert_eq!((&found["cells"], &found["faults"]), (&40.into(), &2.into()));
+    Ok(())
+}
+
 /// A thrust of triangles, 12 km x 12 km at 60 degrees down from the surface, as a file of Gmsh with one group.
 fn thrust() -> String {
     let side = 7;

@@ -7,11 +7,16 @@ use stickslip_bie::{Mode, SegmentFault, Segments, SegmentsError};
 use super::half_space;
 use crate::{IN_PLANE, MEDIUM, Outcome};
 
-/// The error of polylines, and its message.
+/// The error of polylines, or of a fault of them, and its message.
 fn refused(polylines: &[&[[f64; 2]]]) -> Outcome<(SegmentsError, String)> {
-    let error = Segments::polylines(polylines).err().ok_or("accepted")?;
+    let fault = Segments::polylines(polylines).and_then(in_space);
+    let error = fault.err().ok_or("accepted")?;
     let message = error.to_string();
     Ok((error, message))
+}
+
+fn in_space(segments: Segments) -> Result<SegmentFault, SegmentsError> {
+    SegmentFault::whole_space(segments, MEDIUM, IN_PLANE)
 }
 
 /// The message of an error below a free surface.
@@ -83,7 +88,9 @@ fn centers_near_other_cells_are_refused() -> Outcome {
         message.contains("at least 0.5 m away from cell 2, is at 0.49"),
         "{message}"
     );
-    Segments::polylines([&line[..], &beside(0.51)])?;
+    in_space(Segments::polylines([&line[..], &beside(0.51)])?)?;
+    // Shorter cells are far enough from each other.
+    in_space(Segments::polylines([&line[..], &beside(0.49)])?.divided(0.9)?)?;
     // A long cell beside short ones, and a branch that ends inside of a cell, are too near.
     assert!(matches!(
         refused(&[&line, &[[-8.0, -1.9], [8.0, -1.9]]])?.0,
@@ -107,7 +114,7 @@ fn centers_near_other_cells_are_refused() -> Outcome {
         refused(&[&line, &branch(8.0)])?.0,
         SegmentsError::TooNear { .. }
     ));
-    Segments::polylines([&line[..], &branch(25.0)])?;
+    in_space(Segments::polylines([&line[..], &branch(25.0)])?)?;
     Ok(())
 }
 

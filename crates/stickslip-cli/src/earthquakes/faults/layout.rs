@@ -21,7 +21,7 @@ pub(super) struct Layout {
     pub(super) downward: Vec<f64>,
     /// The angle with neighbours \[degrees\], of polylines.
     pub(super) bends: Vec<f64>,
-    /// Lines of cells for pictures, with their distances \[km\].
+    /// Lines of cells for pictures, from below, with their distances upwards \[km\].
     pub(super) lines: Vec<Vec<(usize, f64)>>,
     pub(super) largest_bend: f64,
     /// What the cells are like: their extent tells kilometres from metres.
@@ -46,7 +46,9 @@ impl Layout {
         let downward = cells.distances();
         let lines = (0..cells.fault_count()).map(|fault| {
             let line = cells.cells_of(fault);
-            line.map(|cell| (cell, downward[cell] / 1e3)).collect()
+            line.rev()
+                .map(|cell| (cell, -downward[cell] / 1e3))
+                .collect()
         });
         let mut layout = Self {
             faults: all().map(|cell| cells.fault_of(cell)).collect(),
