@@ -9,7 +9,7 @@ const APART_AT_ENDS: f64 = 0.1;
 /// The share of a length below which points coincide.
 const ROUNDING: f64 = 1e-9;
 
-/// Refuses cells that are none, and centres of cells near to others: stress there is that of a corner.
+/// Refuses cells without length, repeated and crossing cells, and centres near other cells: an end of a cell stresses them.
 pub(super) fn check(segments: &Segments) -> Result<(), SegmentsError> {
     check_lines(segments)?.map_or(Ok(()), Err)
 }

@@ -106,7 +106,7 @@ impl<const C: usize> Strength<C> {
         least.min(self.largest.unwrap_or(f64::INFINITY))
     }
 
-    /// Refuses limits of the normal stress that are none, or of one that the body exerts.
+    /// Refuses limits of the normal stress that are out of range, and limits of one that the body exerts.
     pub(crate) fn check_limits(&self, bilateral: bool) -> Result<(), SceneError> {
         let requirement = "above 0 and finite; allow_opening takes 0";
         let above = self.least.unwrap_or(0.0);

@@ -9,7 +9,7 @@ use super::axes::{self, CellAxes};
 use super::vertices::Vertices;
 use super::{orientation, separation};
 
-/// The share of the longest side squared below which an area is none.
+/// The area over the longest side squared below which a triangle is degenerate.
 const DEGENERATE: f64 = 1e-6;
 
 /// The triangles of a fault in space, cells with constant slip: one sheet or several, with branches, holes and rims.

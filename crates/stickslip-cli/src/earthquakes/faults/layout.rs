@@ -24,7 +24,7 @@ pub(super) struct Layout {
     /// Lines of cells for pictures, from below, with their distances upwards \[km\].
     pub(super) lines: Vec<Vec<(usize, f64)>>,
     pub(super) largest_bend: f64,
-    /// What the cells are like: their extent tells kilometres from metres.
+    /// The number, the extent and the largest bend of the cells: the extent tells kilometres from metres.
     pub(super) told: String,
 }
 
