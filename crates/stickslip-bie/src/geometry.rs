@@ -6,10 +6,9 @@ use nalgebra::SVector;
 use stickslip_solvers::{MeshId, NormalStressChange, Operator};
 
 use crate::loading::{PLATE_RATES, check_rates, relieving};
-use crate::{DippingFault, DippingKernel, Fault, FaultSystem, Kernel, KernelError};
 use crate::{
-    PlaneFault, PlaneKernel, Rectangles, SegmentFault, SegmentKernel, SurfaceFault, SurfaceKernel,
-    SystemKernel,
+    CellKernel, DippingFault, DippingKernel, Fault, FaultSystem, Kernel, KernelError, PlaneFault,
+    PlaneKernel, Rectangles, SegmentFault, SurfaceFault, SystemKernel,
 };
 
 /// The cells of a fault, each a vertex of a scene.
@@ -217,7 +216,7 @@ impl<const C: usize> FaultGeometry<C> for FaultSystem<C> {
 }
 
 impl FaultGeometry<1> for SegmentFault {
-    type Kernel = SegmentKernel;
+    type Kernel = CellKernel<1>;
 
     fn cells(&self) -> FaultCells {
         let cells = self.cells();
@@ -229,11 +228,11 @@ impl FaultGeometry<1> for SegmentFault {
         }
     }
 
-    fn stiffness(&self) -> SegmentKernel {
+    fn stiffness(&self) -> CellKernel<1> {
         self.stiffness()
     }
 
-    fn radiation_damping(&self) -> SegmentKernel {
+    fn radiation_damping(&self) -> CellKernel<1> {
         self.radiation_damping()
     }
 
@@ -247,7 +246,7 @@ impl FaultGeometry<1> for SegmentFault {
 }
 
 impl<const C: usize> FaultGeometry<C> for SurfaceFault<C> {
-    type Kernel = SurfaceKernel<C>;
+    type Kernel = CellKernel<C>;
 
     fn cells(&self) -> FaultCells {
         let cells = self.cells();
@@ -259,11 +258,11 @@ impl<const C: usize> FaultGeometry<C> for SurfaceFault<C> {
         }
     }
 
-    fn stiffness(&self) -> SurfaceKernel<C> {
+    fn stiffness(&self) -> CellKernel<C> {
         self.stiffness()
     }
 
-    fn radiation_damping(&self) -> SurfaceKernel<C> {
+    fn radiation_damping(&self) -> CellKernel<C> {
         self.radiation_damping()
     }
 

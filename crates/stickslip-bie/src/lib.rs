@@ -30,9 +30,8 @@
 //! | [`FaultSystem`], [`Placement`], [`SystemSection`] | several planes in one half space, each with a strike, a dip and a place |
 //! | [`SystemKernel`], [`SystemNormalKernel`] | its operators: forces and normal stress due to slip on all planes |
 //! | [`Segments`], [`DipProfile`], [`SegmentFault`] | faults along polylines, bent, listric, branched or several, in plane strain or antiplane; stress and displacement off the fault |
-//! | [`SegmentKernel`], [`SegmentNormalKernel`] | its operators: shear stress and normal stress of slip |
 //! | [`SurfaceFault`], [`SurfaceSection`] | a fault that is a surface of triangles of any shape, in a half or whole space |
-//! | [`SurfaceKernel`], [`SurfaceNormalKernel`] | its operators: forces and normal stress due to slip |
+//! | [`CellKernel`], [`CellNormalKernel`] | the operators of both: forces and normal stress due to slip |
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`HMatrix`] | a matrix of smooth interactions in clusters, with blocks of low rank between those far from each other ([`hmatrix`]) |
@@ -54,6 +53,7 @@ mod error;
 mod fault;
 mod geometry;
 pub mod hmatrix;
+mod interaction;
 mod kernel;
 mod line;
 mod line_loads;
@@ -69,6 +69,7 @@ pub use error::KernelError;
 pub use fault::{Fault, Medium, Mode};
 pub use geometry::{FaultCells, FaultGeometry, LoadHistory};
 pub use hmatrix::HMatrix;
+pub use interaction::{CellKernel, CellNormalKernel};
 pub use kernel::Kernel;
 pub use line::{DippingFault, DippingKernel, DippingNormalKernel, Sense};
 pub use overstress::Overstress;
@@ -76,11 +77,8 @@ pub use plane::{
     FaultSystem, Placement, PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles,
     RectangularDislocation, SystemKernel, SystemNormalKernel, SystemSection,
 };
-pub use segments::{
-    DipProfile, SegmentFault, SegmentKernel, SegmentNormalKernel, Segments, SegmentsError,
-    SegmentsQuality,
-};
+pub use segments::{DipProfile, SegmentFault, Segments, SegmentsError, SegmentsQuality};
 pub use surface::{
-    CellAxes, ResolvedStress, SurfaceError, SurfaceFault, SurfaceKernel, SurfaceNormalKernel,
-    SurfaceQuality, SurfaceSection, Triangles, TriangularDislocation,
+    CellAxes, ResolvedStress, SurfaceError, SurfaceFault, SurfaceQuality, SurfaceSection,
+    Triangles, TriangularDislocation,
 };

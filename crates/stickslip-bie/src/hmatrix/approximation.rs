@@ -5,6 +5,7 @@ use crate::KernelError;
 /// The tolerance, the precision and the memory of an [`HMatrix`](crate::HMatrix).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approximation {
+    /// 0 without far blocks.
     pub(super) tolerance: f64,
     pub(super) single_precision: bool,
     pub(super) memory_limit: u64,
@@ -36,6 +37,14 @@ impl Approximation {
         Err(KernelError::new(what, "positive, and at most", tolerance).bound(0.1))
     }
 
+    /// Keeps all blocks as they are: near blocks alone, with the memory of the dense matrix.
+    pub fn without_far_blocks(self) -> Self {
+        Self {
+            tolerance: 0.0,
+            ..self
+        }
+    }
+
     /// Keeps far blocks in single precision: half of their memory, with a relative error of 6e-8; near blocks stay in
     /// double precision.
     pub fn in_single_precision(self) -> Self {
@@ -53,9 +62,13 @@ impl Approximation {
         }
     }
 
-    /// The tolerance.
+    /// The tolerance; 0 without far blocks.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
+    }
+
+    pub(super) fn has_far_blocks(&self) -> bool {
+        self.tolerance > 0.0
     }
 
     /// The bytes of a number of a far block.

@@ -25,7 +25,8 @@ pub enum HMatrixError {
     },
     /// The matrix takes more memory than it may.
     #[error(
-        "the H-matrix takes about {needed} bytes at a tolerance of {tolerance:e}, more than the limit of {limit} bytes: {}",
+        "the H-matrix takes about {needed} bytes{}, more than the limit of {limit} bytes: {}",
+        if *tolerance > 0.0 { format!(" at a tolerance of {tolerance:e}") } else { " without far blocks".to_owned() },
         fitting.map_or_else(
             || "raise the limit, or take larger cells".to_owned(),
             |fitting| format!("a tolerance of {fitting:e} fits, or raise the limit, or take larger cells")
@@ -36,7 +37,7 @@ pub enum HMatrixError {
         needed: u64,
         /// The limit \[bytes\].
         limit: u64,
-        /// The tolerance asked for.
+        /// The tolerance asked for; 0 without far blocks.
         tolerance: f64,
         /// The smallest power of ten, up to 0.1, that fits as a tolerance.
         fitting: Option<f64>,

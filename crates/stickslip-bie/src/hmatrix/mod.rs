@@ -126,7 +126,8 @@ impl HMatrix {
     ) -> Result<Self, HMatrixError> {
         check(receivers, sources)?;
         let [receivers, sources] = [receivers, sources].map(|cells| ClusterTree::new(cells, LEAF));
-        let (trees, partition) = ([&receivers, &sources], Partition::new(&receivers, &sources));
+        let trees = [&receivers, &sources];
+        let partition = Partition::new(&receivers, &sources, approximation.has_far_blocks());
         let found = check_memory(entries, trees, &partition, approximation)?;
         let Built {
             strips,
@@ -149,6 +150,24 @@ impl HMatrix {
             approximation: *approximation,
             pairs,
         })
+    }
+
+    /// Refuses a matrix that takes more memory than its limit, without making it.
+    pub(crate) fn check_memory<E: Entries>(
+        entries: &E,
+        cells: &[Extent],
+        approximation: &Approximation,
+    ) -> Result<(), HMatrixError> {
+        check(cells, cells)?;
+        let shape = entries.shape().map(|n| n as f64);
+        let dense = 8.0 * shape[0] * shape[1] * (cells.len() as f64).powi(2);
+        if dense <= approximation.memory_limit as f64 {
+            return Ok(());
+        }
+        let tree = ClusterTree::new(cells, LEAF);
+        let partition = Partition::new(&tree, &tree, approximation.has_far_blocks());
+        check_memory(entries, [&tree, &tree], &partition, approximation)?;
+        Ok(())
     }
 
     /// The numbers of receivers and of sources.

@@ -10,14 +10,24 @@ const ADMISSIBLE: f64 = 2.0;
 pub(super) struct Partition {
     /// Clusters at a distance: of low rank.
     pub(super) far: Vec<[usize; 2]>,
-    /// Leaves next to each other: dense.
+    /// Leaves and what is next to them: dense.
     pub(super) near: Vec<[usize; 2]>,
 }
 
 impl Partition {
-    pub(super) fn new(receivers: &ClusterTree, sources: &ClusterTree) -> Self {
+    /// Without far blocks, each leaf of receivers has one near block of all sources.
+    pub(super) fn new(
+        receivers: &ClusterTree,
+        sources: &ClusterTree,
+        has_far_blocks: bool,
+    ) -> Self {
         let mut partition = Self::default();
-        partition.divide([receivers, sources], [0, 0]);
+        if has_far_blocks {
+            partition.divide([receivers, sources], [0, 0]);
+        } else {
+            let leaves = receivers.leaves.iter();
+            partition.near = leaves.map(|&leaf| [leaf, 0]).collect();
+        }
         partition
     }
 

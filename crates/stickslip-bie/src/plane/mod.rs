@@ -34,6 +34,5 @@ pub use fault::PlaneFault;
 pub use kernel::PlaneKernel;
 pub use normal::PlaneNormalKernel;
 pub use rectangles::Rectangles;
-pub(crate) use system::dot;
 pub use system::{FaultSystem, Placement, SystemKernel, SystemNormalKernel, SystemSection};
 pub(crate) use terms::Terms;

@@ -4,6 +4,7 @@ use stickslip_state::Number;
 use thiserror::Error;
 
 use crate::KernelError;
+use crate::hmatrix::HMatrixError;
 
 /// Segments that are no fault, or values of a fault of segments that are out of their ranges. Cells, faults, and points
 /// are counted from 0.
@@ -115,18 +116,9 @@ pub enum SegmentsError {
         /// The largest number.
         most: usize,
     },
-    /// The dense matrices are too large.
-    #[error("the dense matrices of {cells} cells take {} bytes, more than {}: take at most {most} cells", Number(*.bytes), Number(*.limit))]
-    Memory {
-        /// The number of cells.
-        cells: usize,
-        /// The bytes of both matrices.
-        bytes: f64,
-        /// The largest number of bytes.
-        limit: f64,
-        /// The largest number of cells.
-        most: usize,
-    },
+    /// The interaction takes more memory than it may.
+    #[error(transparent)]
+    Interaction(#[from] HMatrixError),
     /// A line of a table.
     #[error("line {line} of the table of segments: {problem}")]
     Table {

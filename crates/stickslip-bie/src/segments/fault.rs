@@ -2,15 +2,16 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::influence::{Influence, Traction};
-use super::potentials::Space;
-use super::rows::Rows;
-use super::{SegmentKernel, SegmentNormalKernel, Segments, SegmentsError, separation, surface};
-use crate::fault::{check_medium, check_poisson_ratio};
-use crate::{KernelError, Medium, Mode, Section, Sense};
+use nalgebra::SMatrix;
 
-/// The largest number of cells of dense matrices.
-const DENSE: usize = 2000;
+use super::influence::Influence;
+use super::pairs::SegmentPairs;
+use super::potentials::Space;
+use super::{Segments, SegmentsError, separation, surface};
+use crate::fault::{check_medium, check_poisson_ratio};
+use crate::hmatrix::{Approximation, Compression};
+use crate::interaction::{Interaction, Storage};
+use crate::{CellKernel, CellNormalKernel, KernelError, Medium, Mode, Section, Sense};
 
 /// Faults along polylines in a half space or a whole space, quasi-dynamic: bent, listric, rough, branched, or several.
 ///
@@ -39,8 +40,14 @@ const DENSE: usize = 2000;
 ///
 /// # Errors of cells
 ///
-/// On a straight line of equal cells stress is of second order in their length, on a curved one of first. Memory is 16 bytes
-/// per pair of cells, for at most 2000 cells.
+/// On a straight line of equal cells stress is of second order in their length, on a curved one of first.
+///
+/// # Memory
+///
+/// The interaction of up to 2000 cells is stored whole, with 16 bytes per pair of cells, or 8 in antiplane. Beyond, it is an
+/// [`HMatrix`](crate::HMatrix) with a tolerance of 1e-4; [`with_tolerance`](Self::with_tolerance) and
+/// [`with_approximation`](Self::with_approximation) set it for any number of cells, [`compression`](Self::compression)
+/// tells what it takes. The limit is 8 GiB.
 ///
 /// ```
 /// use nalgebra::Vector1;
@@ -75,9 +82,9 @@ pub struct SegmentFault {
     pub(super) mode: Mode,
     pub(super) free_surface: bool,
     sense: Sense,
+    storage: Storage,
     /// Computed on first use, shared by clones.
-    stiffness: Arc<OnceLock<Arc<Rows>>>,
-    normal: Arc<OnceLock<Arc<Rows>>>,
+    interaction: Arc<OnceLock<Arc<Interaction<1>>>>,
 }
 
 impl SegmentFault {
@@ -86,7 +93,7 @@ impl SegmentFault {
     ///
     /// # Errors
     /// [`SegmentsError`] for rock or mode out of their ranges, cells above the surface or along it, ends right below it,
-    /// centres of cells that are too near to other cells, and more cells than 2000.
+    /// centres of cells that are too near to other cells, and an interaction beyond 8 GiB.
     pub fn half_space(segments: Segments, rock: Medium, mode: Mode) -> Result<Self, SegmentsError> {
         Self::new(surface::below(segments)?, rock, mode, true)
     }
@@ -94,8 +101,8 @@ impl SegmentFault {
     /// Faults in a whole space.
     ///
     /// # Errors
-    /// [`SegmentsError`] for rock or mode out of their ranges, centres of cells that are too near to other cells, and more
-    /// cells than 2000.
+    /// [`SegmentsError`] for rock or mode out of their ranges, centres of cells that are too near to other cells, and
+    /// an interaction beyond 8 GiB.
     pub fn whole_space(
         segments: Segments,
         rock: Medium,
@@ -114,26 +121,17 @@ impl SegmentFault {
         if let Mode::InPlane { poisson_ratio } = mode {
             check_poisson_ratio(poisson_ratio)?;
         }
-        let cells = segments.count();
-        if cells > DENSE {
-            let bytes = |count: usize| 16.0 * (count as f64).powi(2);
-            return Err(SegmentsError::Memory {
-                cells,
-                bytes: bytes(cells),
-                limit: bytes(DENSE),
-                most: DENSE,
-            });
-        }
         separation::check(&segments)?;
-        Ok(Self {
+        let fault = Self {
             segments,
             rock,
             mode,
             free_surface,
             sense: Sense::Thrust,
-            stiffness: Arc::default(),
-            normal: Arc::default(),
-        })
+            storage: Storage::default(),
+            interaction: Arc::default(),
+        };
+        fault.stored(Storage::default())
     }
 
     /// The same faults with another sense of positive slip, by default [`Sense::Thrust`]. Antiplane slip has none.
@@ -141,9 +139,37 @@ impl SegmentFault {
     pub fn with_sense(self, sense: Sense) -> Self {
         Self {
             sense,
-            normal: Arc::default(),
+            interaction: Arc::default(),
             ..self
         }
+    }
+
+    /// The same faults with an interaction that differs from the exact one by so much, relative, in far blocks: 1e-4 by
+    /// default.
+    ///
+    /// # Errors
+    /// [`SegmentsError`] for a tolerance that is not positive, or above 0.1, and for an interaction beyond the limit of memory.
+    pub fn with_tolerance(self, tolerance: f64) -> Result<Self, SegmentsError> {
+        let approximation = Approximation::default().with_tolerance(tolerance)?;
+        self.with_approximation(approximation)
+    }
+
+    /// The same faults with an [`Approximation`] of their interaction: none, of a tolerance, in single precision, or with
+    /// another limit of memory.
+    ///
+    /// # Errors
+    /// [`SegmentsError`] for an interaction beyond the limit of memory.
+    pub fn with_approximation(self, approximation: Approximation) -> Result<Self, SegmentsError> {
+        self.stored(Storage::of(approximation))
+    }
+
+    fn stored(self, storage: Storage) -> Result<Self, SegmentsError> {
+        storage.check(&self.pairs())?;
+        Ok(Self {
+            storage,
+            interaction: Arc::default(),
+            ..self
+        })
     }
 
     /// The cells.
@@ -177,38 +203,34 @@ impl SegmentFault {
             .map(|axis| [axis.re, axis.im])
     }
 
-    /// The stiffness matrix `K` \[Pa\]: forces on cells that resist their slip. It is made when it is first asked for, and
-    /// shared by all.
-    pub fn stiffness(&self) -> SegmentKernel {
-        let rows = self.stiffness.get_or_init(|| {
-            let influence = self.influence();
-            let lengths = self.lengths();
-            let force = |i: usize, j: usize| -lengths[i] * influence.traction(i, j).shear;
-            Arc::new(Rows::new(lengths.len(), force))
-        });
-        SegmentKernel::dense(Arc::clone(rows), self.segments.identity())
+    fn interaction(&self) -> Arc<Interaction<1>> {
+        let interaction = (self.interaction)
+            .get_or_init(|| Arc::new(Interaction::new(&self.pairs(), &self.storage)));
+        Arc::clone(interaction)
+    }
+
+    /// The stiffness matrix `K` \[Pa\]: forces on cells that resist their slip. It is made when it is first asked for, with
+    /// that of the normal stress, and shared by all.
+    pub fn stiffness(&self) -> CellKernel<1> {
+        CellKernel::of_interaction(self.interaction(), self.segments.identity())
     }
 
     /// The change of normal stress per slip [Pa/m], compression positive; zero for antiplane slip.
-    pub fn normal_stiffness(&self) -> SegmentNormalKernel {
-        let rows = match self.mode {
-            Mode::Antiplane => None,
-            Mode::InPlane { .. } => Some(Arc::clone(self.normal.get_or_init(|| {
-                let influence = self.influence();
-                let stress = |i: usize, j: usize| {
-                    let Traction { normal, .. } = influence.traction(i, j);
-                    normal
-                };
-                Arc::new(Rows::new(self.segments.count(), stress))
-            }))),
-        };
-        SegmentNormalKernel::new(rows, &self.segments)
+    pub fn normal_stiffness(&self) -> CellNormalKernel<1> {
+        let cells = 0..self.segments.count();
+        let bends = cells.map(|cell| self.segments.bend_at(cell)).collect();
+        CellNormalKernel::new(self.interaction(), bends, self.segments.identity())
+    }
+
+    /// What the interaction takes, and how it is approximated. It is made if it is not there yet.
+    pub fn compression(&self) -> Compression {
+        self.interaction().compression()
     }
 
     /// The radiation damping as a viscosity matrix, for shear waves along the normal of each cell [Pa s/m times a length]:
     /// `eta = mu/(2 c_s)`.
     #[doc(alias = "quasi-dynamic")]
-    pub fn radiation_damping(&self) -> SegmentKernel {
+    pub fn radiation_damping(&self) -> CellKernel<1> {
         self.damping(1.0)
     }
 
@@ -216,16 +238,18 @@ impl SegmentFault {
     ///
     /// # Errors
     /// [`KernelError`] for a factor out of its range.
-    pub fn radiation_damping_times(&self, factor: f64) -> Result<SegmentKernel, KernelError> {
+    pub fn radiation_damping_times(&self, factor: f64) -> Result<CellKernel<1>, KernelError> {
         crate::error::check_factor(factor)?;
         Ok(self.damping(factor))
     }
 
-    fn damping(&self, factor: f64) -> SegmentKernel {
+    fn damping(&self, factor: f64) -> CellKernel<1> {
         let damping = 0.5 * factor * self.rock.shear_modulus / self.rock.shear_wave_speed;
         let lengths = self.lengths().into_iter();
-        let each = lengths.map(|length| damping * length).collect();
-        SegmentKernel::diagonal(each, self.segments.identity())
+        let each = lengths
+            .map(|length| SMatrix::from([[damping * length]]))
+            .collect();
+        CellKernel::of_diagonal(each, self.segments.identity())
     }
 
     /// The cells whose centres `[x, z]` \[m\] are inside, as a contact.
@@ -242,6 +266,14 @@ impl SegmentFault {
     pub(super) fn lengths(&self) -> Vec<f64> {
         let cells = 0..self.segments.count();
         cells.map(|cell| self.segments.length(cell)).collect()
+    }
+
+    fn pairs(&self) -> SegmentPairs<'_> {
+        SegmentPairs {
+            segments: &self.segments,
+            influence: self.influence(),
+            mode: self.mode,
+        }
     }
 
     pub(super) fn influence(&self) -> Influence {

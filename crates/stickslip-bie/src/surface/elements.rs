@@ -5,6 +5,7 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use super::Triangles;
 use super::edges::Loop;
 use super::rock::Rock;
+use crate::interaction::Pair;
 
 /// Triangles with `C` directions of slip each.
 #[derive(Debug)]
@@ -18,9 +19,6 @@ pub(crate) struct Elements<const C: usize> {
     /// The directions of slip.
     pub(super) slips: Vec<[Vector3<f64>; C]>,
 }
-
-/// What slip of a cell does at another: shear stress along its directions of slip, and compression [Pa/m].
-pub(crate) type Pair<const C: usize> = (SMatrix<f64, C, C>, SVector<f64, C>);
 
 impl<const C: usize> Elements<C> {
     /// From the parts of the directions of slip along strike and up dip.
@@ -47,10 +45,6 @@ impl<const C: usize> Elements<C> {
             slips: slips.collect(),
             axes,
         }
-    }
-
-    pub(crate) fn count(&self) -> usize {
-        self.loops.len()
     }
 
     /// What slip of a cell does at the centroid of another.

@@ -4,6 +4,7 @@ use stickslip_state::Number;
 use thiserror::Error;
 
 use crate::KernelError;
+use crate::hmatrix::HMatrixError;
 
 /// Triangles are no surface of a fault.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -118,6 +119,9 @@ pub enum SurfaceError {
     /// A value is out of its range.
     #[error(transparent)]
     Value(#[from] KernelError),
+    /// The interaction takes more memory than it may.
+    #[error(transparent)]
+    Interaction(#[from] HMatrixError),
 }
 
 fn position(at: &[f64; 3]) -> String {

@@ -2,15 +2,13 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::dense::{self, Dense};
 use super::rock::Rock;
 use super::{SurfaceError, Triangles};
 use crate::error::positive;
+use crate::hmatrix::Approximation;
+use crate::interaction::{Interaction, Storage};
 use crate::plane::cos_sin;
 use crate::{KernelError, Medium};
-
-/// The default limit of the memory of the interaction: 2 GiB.
-const MEMORY: usize = 2 << 30;
 
 /// A fault that is a surface of triangles in an elastic whole or half space, by boundary integrals, quasi-dynamic: of any
 /// shape, of several sheets, with branches.
@@ -29,9 +27,11 @@ const MEMORY: usize = 2 << 30;
 /// ten times more accurate; it is taken unless [`without_averaging`](Self::without_averaging). At a sharp bend the normal
 /// stress grows as the cells get smaller: spread bends over many cells.
 ///
-/// **Memory.** The interaction is dense, with 48 bytes per pair of cells, or 16 with one component, and takes about 0.1
-/// microseconds per pair to make in a whole space. The limit is 2 GiB, or that of
-/// [`whole_space_within`](Self::whole_space_within).
+/// **Memory.** The interaction of up to 2000 cells is stored whole, with 48 bytes per pair of cells, or 24 with two
+/// components on one plane in a whole space, and 16 or 8 with one. Beyond, it is an [`HMatrix`](crate::HMatrix) with a
+/// tolerance of 1e-4: 7200 cells take 13 % of that, 20 000 take 6 %; [`with_tolerance`](Self::with_tolerance) and
+/// [`with_approximation`](Self::with_approximation) set it for any number of cells, [`compression`](Self::compression) tells
+/// what it takes. The limit is 8 GiB, or that of [`whole_space_within`](Self::whole_space_within).
 ///
 /// ```
 /// use nalgebra::Vector1;
@@ -67,21 +67,23 @@ pub struct SurfaceFault<const C: usize = 2> {
     pub(super) directions: Arc<Vec<[[f64; 2]; C]>>,
     pub(super) is_corrected: bool,
     pub(super) is_averaged: bool,
+    pub(super) storage: Storage,
     /// Shared by clones; computed on first use.
-    pub(super) interaction: Arc<OnceLock<Arc<Dense<C>>>>,
+    pub(super) interaction: Arc<OnceLock<Arc<Interaction<C>>>>,
 }
 
 impl SurfaceFault {
     /// A surface in a whole space, with two components of slip.
     ///
     /// # Errors
-    /// [`KernelError`] for rock or Poisson's ratio out of their ranges, and for an interaction beyond 2 GiB.
+    /// [`SurfaceError`] for rock or Poisson's ratio out of their ranges, and for an interaction beyond 8 GiB.
     pub fn whole_space(
         cells: Triangles,
         rock: Medium,
         poisson_ratio: f64,
     ) -> Result<Self, SurfaceError> {
-        Self::whole_space_within(MEMORY, cells, rock, poisson_ratio)
+        let fault = Self::new(cells, rock, poisson_ratio, false)?;
+        fault.stored(Storage::default())
     }
 
     /// [`whole_space`](Self::whole_space) with a limit of so many bytes for the interaction of two components.
@@ -89,12 +91,12 @@ impl SurfaceFault {
     /// # Errors
     /// See [`whole_space`](Self::whole_space).
     pub fn whole_space_within(
-        bytes: usize,
+        bytes: u64,
         cells: Triangles,
         rock: Medium,
         poisson_ratio: f64,
     ) -> Result<Self, SurfaceError> {
-        Self::new(cells, rock, poisson_ratio, false)?.within(bytes)
+        Self::new(cells, rock, poisson_ratio, false)?.stored(Storage::within(bytes))
     }
 
     /// A surface in a half space `z <= 0` with a free surface, with two components of slip. It may reach the surface.
@@ -107,7 +109,8 @@ impl SurfaceFault {
         rock: Medium,
         poisson_ratio: f64,
     ) -> Result<Self, SurfaceError> {
-        Self::half_space_within(MEMORY, cells, rock, poisson_ratio)
+        let fault = Self::new(cells.below_surface()?, rock, poisson_ratio, true)?;
+        fault.stored(Storage::default())
     }
 
     /// [`half_space`](Self::half_space) with a limit of so many bytes for the interaction of two components.
@@ -115,12 +118,13 @@ impl SurfaceFault {
     /// # Errors
     /// See [`half_space`](Self::half_space).
     pub fn half_space_within(
-        bytes: usize,
+        bytes: u64,
         cells: Triangles,
         rock: Medium,
         poisson_ratio: f64,
     ) -> Result<Self, SurfaceError> {
-        Self::new(cells.below_surface()?, rock, poisson_ratio, true)?.within(bytes)
+        let fault = Self::new(cells.below_surface()?, rock, poisson_ratio, true)?;
+        fault.stored(Storage::within(bytes))
     }
 
     fn new(
@@ -137,6 +141,7 @@ impl SurfaceFault {
             cells: Arc::new(cells),
             is_corrected: true,
             is_averaged: true,
+            storage: Storage::default(),
             interaction: Arc::default(),
         })
     }
@@ -174,6 +179,7 @@ impl SurfaceFault {
             directions: Arc::new(rakes.iter().map(|&rake| [cos_sin(rake)]).collect()),
             is_corrected: self.is_corrected,
             is_averaged: self.is_averaged,
+            storage: self.storage,
             interaction: Arc::default(),
         })
     }
@@ -212,17 +218,31 @@ impl<const C: usize> SurfaceFault<C> {
         &self.directions
     }
 
-    /// The memory of the interaction \[bytes\], once it is made.
-    pub fn memory(&self) -> f64 {
-        dense::bytes::<C>(self.cells.count())
+    /// The same fault with an interaction that differs from the exact one by so much, relative, in far blocks: 1e-4 by default.
+    ///
+    /// # Errors
+    /// [`SurfaceError`] for a tolerance that is not positive, or above 0.1, and for an interaction beyond the limit of
+    /// memory.
+    pub fn with_tolerance(self, tolerance: f64) -> Result<Self, SurfaceError> {
+        let approximation = Approximation::default().with_tolerance(tolerance)?;
+        self.with_approximation(approximation)
     }
 
-    fn within(self, bytes: usize) -> Result<Self, SurfaceError> {
-        if self.memory() > bytes as f64 {
-            let what = "memory [bytes] of the interaction of triangles";
-            let error = KernelError::new(what, "at most", self.memory());
-            return Err(error.bound(bytes as f64).into());
-        }
-        Ok(self)
+    /// The same fault with an [`Approximation`] of its interaction: none, of a tolerance, in single precision, or with another
+    /// limit of memory.
+    ///
+    /// # Errors
+    /// [`SurfaceError`] for an interaction beyond the limit of memory.
+    pub fn with_approximation(self, approximation: Approximation) -> Result<Self, SurfaceError> {
+        self.stored(Storage::of(approximation))
+    }
+
+    fn stored(self, storage: Storage) -> Result<Self, SurfaceError> {
+        storage.check(&self.pairs())?;
+        Ok(Self {
+            storage,
+            interaction: Arc::default(),
+            ..self
+        })
     }
 }

@@ -2,7 +2,6 @@
 
 mod averaging;
 mod consistency;
-mod dense;
 mod dislocation;
 #[cfg_attr(not(test), allow(dead_code, reason = "receivers off the fault"))]
 mod displacement;
@@ -11,19 +10,17 @@ mod elements;
 mod error;
 mod fault;
 mod harmonic;
-mod kernel;
 mod loading;
 mod mesh;
-mod normal;
+mod pairs;
 mod rock;
 mod section;
 mod stiffness;
 
+pub(crate) use averaging::Averaging;
 pub use dislocation::TriangularDislocation;
 pub use error::SurfaceError;
 pub use fault::SurfaceFault;
-pub use kernel::SurfaceKernel;
 pub use loading::ResolvedStress;
 pub use mesh::{CellAxes, SurfaceQuality, Triangles};
-pub use normal::SurfaceNormalKernel;
 pub use section::SurfaceSection;

@@ -2,6 +2,7 @@
 
 mod allocation;
 mod closed_forms;
+mod compressed;
 mod dipping;
 mod hmatrix;
 mod loads;

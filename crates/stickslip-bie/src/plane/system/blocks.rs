@@ -175,7 +175,7 @@ impl<I: Iterator<Item = usize>, const R: usize, const C: usize> WithSimd for Pro
 
 /// The sum of products, the same bits at any width of registers.
 #[inline(always)]
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+fn dot(a: &[f64], b: &[f64]) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
     let mut sums = [0.0; LANES];
     for (a, b) in a.iter().zip(b) {

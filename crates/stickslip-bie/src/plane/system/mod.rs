@@ -10,7 +10,6 @@ mod normal;
 mod placement;
 mod separation;
 
-pub(crate) use blocks::dot;
 pub use contacts::SystemSection;
 pub use fault_system::FaultSystem;
 pub use kernel::SystemKernel;

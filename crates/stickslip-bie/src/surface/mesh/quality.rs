@@ -73,6 +73,20 @@ impl Triangles {
         }
         found
     }
+
+    /// The largest angle of a triangle with those that continue it \[degrees\]: where a surface bends sharply, its normal
+    /// stress may vanish by slip.
+    pub fn bend_at(&self, cell: usize) -> f64 {
+        let others = self.neighbors(cell).iter().flatten();
+        let bends = others.map(|&other| self.bend([cell, other]));
+        bends.fold(0.0, f64::max)
+    }
+
+    /// The angle between two triangles \[degrees\].
+    fn bend(&self, pair: [usize; 2]) -> f64 {
+        let [own, other] = pair.map(|cell| Vector3::from(self.axes(cell).normal));
+        own.cross(&other).norm().atan2(own.dot(&other)).to_degrees()
+    }
 }
 
 impl SurfaceQuality {
@@ -81,8 +95,7 @@ impl SurfaceQuality {
         if own.max(other) > UNEVEN * own.min(other) {
             self.uneven.push(pair);
         }
-        let [own, other] = pair.map(|cell| Vector3::from(cells.axes(cell).normal));
-        let bend = own.cross(&other).norm().atan2(own.dot(&other)).to_degrees();
+        let bend = cells.bend(pair);
         self.sharp_bends += usize::from(bend > SHARP);
         if self.largest_bend.is_none_or(|(largest, _)| bend > largest) {
             self.largest_bend = Some((bend, pair));

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
-use stickslip_bie::{FaultGeometry, SegmentFault, SegmentKernel, Segments};
+use stickslip_bie::{CellKernel, FaultGeometry, SegmentFault, Segments};
 use stickslip_solvers::{Matrix, NormalStressChange, Operator};
 
 use crate::{IN_PLANE, MEDIUM, Outcome, field, flat};
@@ -25,7 +25,7 @@ proptest! {
         let fault = fault(slip.len(), bend).map_err(|error| TestCaseError::fail(error.to_string()))?;
         let (slip, count) = (field(&slip), slip.len());
         let (kernel, damping) = (fault.stiffness(), fault.radiation_damping());
-        let mut sum = SegmentKernel::combination(&[(0.5, &kernel), (1.0, &damping)]);
+        let mut sum = CellKernel::combination(&[(0.5, &kernel), (1.0, &damping)]);
         sum.set_combination(&[(2.0, &damping), (3.0, &kernel), (-1.0, &kernel)]);
         sum.add_to_diagonal(count - 1, &nalgebra::Matrix1::new(7.0));
         let stiffness = DMatrix::from(&kernel);
@@ -58,7 +58,7 @@ fn products_and_sums_take_no_memory() -> Outcome {
     let (stiffness, damping) = (fault.stiffness(), fault.radiation_damping());
     let normal = fault.normal_stiffness();
     let terms = [(0.5, &stiffness), (1.0, &damping)];
-    let mut sum = SegmentKernel::combination(&terms);
+    let mut sum = CellKernel::combination(&terms);
     let (x, mut y) = (field(&vec![1.0; count]), field(&vec![0.0; count]));
     let mut stress = vec![0.0; count];
     let taken = allocation_counter::measure(|| {

@@ -1,5 +1,6 @@
 //! Values of faults of segments that are out of their ranges.
 
+use stickslip_bie::hmatrix::Approximation;
 use stickslip_bie::{DipProfile, Medium, Mode, SegmentFault, Segments, SegmentsError};
 
 use super::half_space;
@@ -23,13 +24,23 @@ fn values_out_of_their_ranges_are_refused() -> Outcome {
         let error = SegmentFault::whole_space(cells()?, rock, IN_PLANE).err();
         assert!(error.is_some_and(|error| error.to_string().starts_with("shear modulus must be")));
     }
-    let many = Segments::down([(60.0, 4e3)], 1.0)?;
-    let error = SegmentFault::half_space(many, MEDIUM, IN_PLANE)
+    let few = SegmentFault::half_space(cells()?, MEDIUM, IN_PLANE)?;
+    for tolerance in [0.0, -1e-4, 0.11, f64::NAN] {
+        let error = few.clone().with_tolerance(tolerance).err();
+        let message = error.ok_or("accepted")?.to_string();
+        assert!(message.starts_with("tolerance of an H-matrix must be positive"));
+    }
+    let limited = Approximation::default()
+        .without_far_blocks()
+        .with_memory_limit(100);
+    let message = few
+        .with_approximation(limited)
         .err()
-        .ok_or("accepted")?;
-    assert_eq!(
-        error.to_string(),
-        "the dense matrices of 4000 cells take 2.56e8 bytes, more than 6.4e7: take at most 2000 cells"
+        .ok_or("accepted")?
+        .to_string();
+    assert!(
+        message.contains("bytes without far blocks, more than the limit of 100 bytes"),
+        "{message}"
     );
     assert!(cells()?.section(|_| false).is_err() && cells()?.section_of(1).is_err());
     Ok(())

@@ -5,7 +5,7 @@ mod dislocation;
 mod fault;
 mod half_space;
 mod mesh;
-mod meshes;
+pub(crate) mod meshes;
 mod stl;
 
 use nalgebra::Vector3;
