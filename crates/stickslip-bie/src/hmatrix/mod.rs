@@ -155,18 +155,20 @@ impl HMatrix {
     /// Refuses a matrix that takes more memory than its limit, without making it.
     pub(crate) fn check_memory<E: Entries>(
         entries: &E,
-        cells: &[Extent],
+        cells: [&[Extent]; 2],
         approximation: &Approximation,
     ) -> Result<(), HMatrixError> {
-        check(cells, cells)?;
-        let shape = entries.shape().map(|n| n as f64);
-        let dense = 8.0 * shape[0] * shape[1] * (cells.len() as f64).powi(2);
+        let [receivers, sources] = cells;
+        check(receivers, sources)?;
+        let numbers = entries.shape().iter().product::<usize>() as f64;
+        let dense = 8.0 * numbers * receivers.len() as f64 * sources.len() as f64;
         if dense <= approximation.memory_limit as f64 {
             return Ok(());
         }
-        let tree = ClusterTree::new(cells, LEAF);
-        let partition = Partition::new(&tree, &tree, approximation.has_far_blocks());
-        check_memory(entries, [&tree, &tree], &partition, approximation)?;
+        let trees = cells.map(|cells| ClusterTree::new(cells, LEAF));
+        let has_far_blocks = approximation.has_far_blocks();
+        let partition = Partition::new(&trees[0], &trees[1], has_far_blocks);
+        check_memory(entries, trees.each_ref(), &partition, approximation)?;
         Ok(())
     }
 

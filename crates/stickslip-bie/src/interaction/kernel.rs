@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, SMatrix, SVector};
 use stickslip_solvers::{Matrix, MeshId, Operator};
 
-use super::{Interaction, add_forces, add_forces_at, work};
+use super::{Interaction, Vertices, add_forces, add_forces_at, work};
 use crate::hmatrix::Compression;
 use crate::plane::Terms;
 
@@ -81,8 +81,36 @@ impl<const C: usize> CellKernel<C> {
         })
     }
 
+    /// The products at some vertices.
+    pub(crate) fn products_at_vertices(
+        &self,
+        vertices: Vertices<'_>,
+        x: &[SVector<f64, C>],
+        products: &mut [SVector<f64, C>],
+    ) {
+        for (product, cell) in products.iter_mut().zip(vertices.cells()) {
+            *product = self.diagonal[cell] * x[cell];
+        }
+        for term in self.terms.present() {
+            add_forces_at(&term.interaction, term.factor, vertices, x, products);
+        }
+    }
+
+    /// The sum of multiples.
+    pub(crate) fn sum<'a>(terms: impl Iterator<Item = (f64, &'a Self)> + Clone) -> Self {
+        let first = terms.clone().next();
+        let count = first.map_or(0, |(_, term)| term.diagonal.len());
+        let mut sum = Self {
+            terms: Terms::none(),
+            diagonal: vec![SMatrix::zeros(); count],
+            mesh: first.and_then(|(_, term)| term.mesh),
+        };
+        sum.set_sum(terms);
+        sum
+    }
+
     /// Overwrites itself by a sum of multiples. Allocates nothing for interactions that it has.
-    fn set_sum<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)> + Clone) {
+    pub(crate) fn set_sum<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)> + Clone) {
         self.diagonal.fill(SMatrix::zeros());
         for (factor, kernel) in terms.clone() {
             for (sum, block) in self.diagonal.iter_mut().zip(&kernel.diagonal) {
@@ -121,12 +149,8 @@ impl<const C: usize> Matrix<C> for CellKernel<C> {
         x: &[SVector<f64, C>],
         products: &mut [SVector<f64, C>],
     ) {
-        for (product, &vertex) in products.iter_mut().zip(vertices) {
-            *product = self.diagonal[vertex] * x[vertex];
-        }
-        for term in self.terms.present() {
-            add_forces_at(&term.interaction, term.factor, vertices, x, products);
-        }
+        let vertices = Vertices { first: 0, vertices };
+        self.products_at_vertices(vertices, x, products);
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
@@ -147,7 +171,7 @@ impl<const C: usize> Matrix<C> for CellKernel<C> {
         let own: f64 = own.map(|(x, block)| x.dot(&(block * x))).sum();
         let terms = self.terms.present();
         own + terms
-            .map(|term| term.factor * work(&term.interaction, x))
+            .map(|term| term.factor * work(&term.interaction, x, x))
             .sum::<f64>()
     }
 }
@@ -160,16 +184,7 @@ impl<const C: usize> Operator<C> for CellKernel<C> {
     }
 
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
-        let terms = terms.iter().copied().chain(mass);
-        let first = terms.clone().next();
-        let count = first.map_or(0, |(_, term)| term.diagonal.len());
-        let mut sum = Self {
-            terms: Terms::none(),
-            diagonal: vec![SMatrix::zeros(); count],
-            mesh: first.and_then(|(_, term)| term.mesh),
-        };
-        sum.set_sum(terms);
-        sum
+        Self::sum(terms.iter().copied().chain(mass))
     }
 
     fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {

@@ -95,26 +95,30 @@ impl Memories {
         found
     }
 
-    /// Passes on the rows of some cells by their place among them, at the cost of the blocks they need.
+    /// Passes on the places among them, the numbers and the rows of some cells, at the cost of the blocks they need.
     pub(super) fn product_at<const C: usize>(
         &self,
         matrix: &HMatrix,
-        cells: &[usize],
+        cells: impl Iterator<Item = usize> + Clone,
         slip: &[SVector<f64, C>],
-        mut show: impl FnMut(usize, &[f64]),
+        mut show: impl FnMut(usize, usize, &[f64]),
     ) {
         let mut memory = self.take(matrix, slip);
         let of_cell = matrix.shape()[0];
         if memory.is_of(slip) {
-            for (place, &cell) in cells.iter().enumerate() {
-                show(place, &memory.rows[of_cell * cell..of_cell * (cell + 1)]);
+            for (place, cell) in cells.enumerate() {
+                show(
+                    place,
+                    cell,
+                    &memory.rows[of_cell * cell..of_cell * (cell + 1)],
+                );
             }
         } else {
             let mut places = 0..;
             let scratch = &mut memory.scratch;
             let slip = |source: usize| slip[source].as_slice();
-            matrix.product_at(cells.iter().copied(), scratch, slip, |_, rows| {
-                show(places.next().unwrap_or_default(), rows);
+            matrix.product_at(cells, scratch, slip, |cell, rows| {
+                show(places.next().unwrap_or_default(), cell, rows);
             });
         }
         self.give(memory);

@@ -34,12 +34,15 @@ pub(crate) struct Interaction<const C: usize> {
 impl<const C: usize> Interaction<C> {
     /// All pairs and their corrections.
     ///
-    /// The memory has been [checked](Storage::check). Rows of a cell with numbers that are not finite become NaN.
+    /// The memory has been [checked](Storage::check). Forces on a cell with numbers that are not
+    /// finite are NaN.
     pub(crate) fn new<P: Pairs<C>>(pairs: &P, storage: &Storage) -> Self {
         let count = pairs.count();
-        let approximation = storage.approximation(count).with_memory_limit(u64::MAX);
+        let [receivers, sources] = [pairs.extents(), pairs.source_extents()];
+        let approximation = storage.approximation(count.max(sources.len()));
+        let approximation = approximation.with_memory_limit(u64::MAX);
         let rows = Rows::new(pairs);
-        let matrix = HMatrix::new(&rows, &pairs.extents(), &approximation);
+        let matrix = HMatrix::between(&rows, &receivers, &sources, &approximation);
         let mut matrix = matrix.expect("cells are finite, and so are rows");
         let mut add = |cell, source, [row, column]: [usize; 2], value| {
             let added = matrix.add([cell, row], [source, column], value);
@@ -52,13 +55,14 @@ impl<const C: usize> Interaction<C> {
                 }
             }
         }
+        let mut sizes: Vec<_> = (0..count).map(|cell| pairs.size(cell)).collect();
         if let Some(cell) = rows.undefined() {
-            add(cell, cell, [0, 0], f64::NAN);
+            sizes[cell] = f64::NAN;
         }
         Self {
             memories: Memories::of(&matrix),
             matrix,
-            sizes: (0..count).map(|cell| pairs.size(cell)).collect(),
+            sizes,
         }
     }
 
@@ -97,6 +101,20 @@ impl<const C: usize> Interaction<C> {
     }
 }
 
+/// Some vertices, the first of which is that of cell 0.
+#[derive(Clone, Copy)]
+pub(crate) struct Vertices<'a> {
+    pub(crate) first: usize,
+    pub(crate) vertices: &'a [usize],
+}
+
+impl Vertices<'_> {
+    fn cells(self) -> impl Iterator<Item = usize> + Clone {
+        let first = self.first;
+        self.vertices.iter().map(move |vertex| vertex - first)
+    }
+}
+
 compiled! {
     /// Adds multiples of the forces at all cells. Allocates nothing.
     pub(crate) fn add_forces<C in 1, 2>(
@@ -115,29 +133,34 @@ compiled! {
         });
     }
 
-    /// Adds multiples of the forces at some cells. Allocates nothing.
+    /// Adds multiples of the forces at some vertices. Allocates nothing.
     pub(crate) fn add_forces_at<C in 1, 2>(
         interaction: &Interaction<C>,
         scale: f64,
-        cells: &[usize],
+        vertices: Vertices<'_>,
         slip: &[SVector<f64, C>],
         forces: &mut [SVector<f64, C>],
     ) {
         let Interaction { matrix, sizes, memories } = interaction;
-        memories.product_at(matrix, cells, slip, |place, rows| {
-            let factor = scale * sizes[cells[place]];
+        let cells = vertices.cells();
+        memories.product_at(matrix, cells, slip, |place, cell, rows| {
+            let factor = scale * sizes[cell];
             forces[place] += SVector::from_fn(|c, _| factor * rows[c]);
         });
     }
 
-    /// The work of forces on slip. Allocates nothing.
-    pub(crate) fn work<C in 1, 2>(interaction: &Interaction<C>, slip: &[SVector<f64, C>]) -> f64 {
+    /// The work of forces due to slip on a motion of the receivers. Allocates nothing.
+    pub(crate) fn work<C in 1, 2>(
+        interaction: &Interaction<C>,
+        slip: &[SVector<f64, C>],
+        motion: &[SVector<f64, C>],
+    ) -> f64 {
         let Interaction { matrix, sizes, memories } = interaction;
         let of_cell = matrix.shape()[0];
         memories.product(matrix, slip, |rows| {
-            let cells = slip.iter().zip(rows.chunks_exact(of_cell)).zip(sizes);
-            cells.map(|((slip, rows), size)| {
-                let along: f64 = slip.iter().zip(rows).map(|(slip, row)| slip * row).sum();
+            let cells = motion.iter().zip(rows.chunks_exact(of_cell)).zip(sizes);
+            cells.map(|((motion, rows), size)| {
+                let along: f64 = motion.iter().zip(rows).map(|(motion, row)| motion * row).sum();
                 size * along
             })
             .sum()

@@ -11,14 +11,19 @@ pub(crate) type Pair<const C: usize> = (SMatrix<f64, C, C>, SVector<f64, C>);
 
 /// Cells as receivers and sources of stress.
 pub(crate) trait Pairs<const C: usize>: Sync {
-    /// The number of cells.
+    /// The number of receivers.
     fn count(&self) -> usize;
 
-    /// The box of a cell \[m\].
-    fn extent(&self, cell: usize) -> Extent;
+    /// The boxes of receivers \[m\].
+    fn extents(&self) -> Vec<Extent>;
 
-    /// The area of a cell [m^2], or its length \[m\].
-    fn size(&self, cell: usize) -> f64;
+    /// The boxes of sources \[m\]: by default the receivers.
+    fn source_extents(&self) -> Vec<Extent> {
+        self.extents()
+    }
+
+    /// The area of a receiver [m^2], or its length \[m\].
+    fn size(&self, receiver: usize) -> f64;
 
     /// Whether slip changes any normal stress.
     fn changes_normal_stress(&self) -> bool;
@@ -29,11 +34,6 @@ pub(crate) trait Pairs<const C: usize>: Sync {
     /// What is added to the shear stress of a cell by slip of cells that share a point with it [Pa/m].
     fn correction(&self, _cell: usize) -> Vec<(usize, SMatrix<f64, C, C>)> {
         Vec::new()
-    }
-
-    /// The boxes of all cells.
-    fn extents(&self) -> Vec<Extent> {
-        (0..self.count()).map(|cell| self.extent(cell)).collect()
     }
 }
 

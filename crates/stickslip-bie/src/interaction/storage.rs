@@ -48,8 +48,9 @@ impl Storage {
     /// Refuses an interaction beyond the limit of memory, as its near blocks and some far ones tell. One that fits without any
     /// approximation is not looked at.
     pub(crate) fn check<P: Pairs<C>, const C: usize>(&self, pairs: &P) -> Result<(), HMatrixError> {
-        let approximation = self.approximation(pairs.count());
+        let cells = [pairs.extents(), pairs.source_extents()];
+        let approximation = self.approximation(cells[0].len().max(cells[1].len()));
         let rows = Rows::new(pairs);
-        HMatrix::check_memory(&rows, &pairs.extents(), &approximation)
+        HMatrix::check_memory(&rows, cells.each_ref().map(Vec::as_slice), &approximation)
     }
 }

@@ -20,8 +20,10 @@ impl Pairs<1> for SegmentPairs<'_> {
         self.segments.count()
     }
 
-    fn extent(&self, cell: usize) -> Extent {
-        Extent::of_points(self.segments.ends(cell).map(|[x, z]| [x, z, 0.0]))
+    fn extents(&self) -> Vec<Extent> {
+        let cells = 0..self.segments.count();
+        let ends = cells.map(|cell| self.segments.ends(cell).map(|[x, z]| [x, z, 0.0]));
+        ends.map(Extent::of_points).collect()
     }
 
     fn size(&self, cell: usize) -> f64 {

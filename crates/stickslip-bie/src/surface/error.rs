@@ -87,6 +87,19 @@ pub enum SurfaceError {
         /// The least distance \[m\], a tenth of the root of the smaller area.
         least: f64,
     },
+    /// A triangle and a cell of a plane are too near to each other.
+    #[error(
+        "triangle {triangle} and cell {cell} of plane {plane} cross or cover each other, or are nearer than a tenth of the \
+         smaller one: separate them, or mesh the plane into the surface"
+    )]
+    NearPlane {
+        /// The triangle.
+        triangle: usize,
+        /// The plane.
+        plane: usize,
+        /// Its cell.
+        cell: usize,
+    },
     /// A vertex is above the free surface.
     #[error("the vertex at {} is above the free surface: rock is at z <= 0", position(.at))]
     AboveSurface {

@@ -208,6 +208,11 @@ impl<const C: usize> SurfaceFault<C> {
         &self.cells
     }
 
+    /// The rock around it, and its Poisson's ratio.
+    pub fn rock(&self) -> (Medium, f64) {
+        (self.medium, self.rock.poisson_ratio())
+    }
+
     /// True in a half space.
     pub fn has_surface(&self) -> bool {
         self.rock.has_surface()

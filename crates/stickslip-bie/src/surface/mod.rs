@@ -23,4 +23,5 @@ pub use error::SurfaceError;
 pub use fault::SurfaceFault;
 pub use loading::ResolvedStress;
 pub use mesh::{CellAxes, SurfaceQuality, Triangles};
+pub(crate) use pairs::SurfacePairs;
 pub use section::SurfaceSection;

@@ -18,6 +18,29 @@ pub(crate) struct SurfacePairs<'a, const C: usize> {
 }
 
 impl<const C: usize> SurfacePairs<'_, C> {
+    /// The tractions at a point on a plane with a unit normal for each slip of a cell.
+    pub(crate) fn tractions(
+        &self,
+        source: usize,
+        at: &Vector3<f64>,
+        normal: &Vector3<f64>,
+    ) -> [Vector3<f64>; C] {
+        let Elements {
+            rock, loops, slips, ..
+        } = &self.elements;
+        rock.tractions(&loops[source], at, normal, &slips[source])
+    }
+
+    /// The centroid and the normal of a cell.
+    pub(crate) fn center_and_normal(&self, cell: usize) -> [Vector3<f64>; 2] {
+        [self.elements.centroids[cell], self.elements.axes[cell][2]]
+    }
+
+    /// The directions of slip of a cell.
+    pub(crate) fn slips(&self, cell: usize) -> &[Vector3<f64>; C] {
+        &self.elements.slips[cell]
+    }
+
     /// The normal of the plane in which all cells are, up to rounding.
     fn plane(&self) -> Option<Vector3<f64>> {
         let axes = &self.elements.axes;
@@ -38,8 +61,11 @@ impl<const C: usize> Pairs<C> for SurfacePairs<'_, C> {
         self.cells.count()
     }
 
-    fn extent(&self, cell: usize) -> Extent {
-        Extent::of_points(self.cells.corners(cell))
+    fn extents(&self) -> Vec<Extent> {
+        let cells = 0..self.cells.count();
+        cells
+            .map(|cell| Extent::of_points(self.cells.corners(cell)))
+            .collect()
     }
 
     fn size(&self, cell: usize) -> f64 {

@@ -33,6 +33,10 @@ impl Rock {
         })
     }
 
+    pub(crate) fn poisson_ratio(&self) -> f64 {
+        self.poisson_ratio
+    }
+
     pub(crate) fn has_surface(&self) -> bool {
         self.has_surface
     }

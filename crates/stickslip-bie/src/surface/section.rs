@@ -35,9 +35,16 @@ impl SurfaceSection {
         self.points.iter().copied().map(value).collect()
     }
 
-    /// The identity of the surface, see [`Triangles::identity`](crate::Triangles::identity).
+    /// The identity of the surface, see [`Triangles::identity`](crate::Triangles::identity), or of the system it is in.
     pub fn identity(&self) -> MeshId {
         self.surface
+    }
+
+    /// The same cells as vertices of a system, from `first` on.
+    pub(crate) fn within(mut self, first: usize, system: MeshId) -> Self {
+        self.vertices.iter_mut().for_each(|vertex| *vertex += first);
+        self.surface = system;
+        self
     }
 }
 

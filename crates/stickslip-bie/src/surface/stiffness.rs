@@ -10,16 +10,20 @@ use super::elements::Elements;
 use super::pairs::SurfacePairs;
 use crate::error::check_factor;
 use crate::hmatrix::Compression;
-use crate::interaction::Interaction;
+use crate::interaction::{Interaction, Storage};
 use crate::{CellKernel, CellNormalKernel, KernelError};
 
 impl<const C: usize> SurfaceFault<C> {
-    pub(super) fn pairs(&self) -> SurfacePairs<'_, C> {
+    pub(crate) fn pairs(&self) -> SurfacePairs<'_, C> {
         SurfacePairs {
             elements: Elements::new(&self.cells, self.rock, &self.directions),
             cells: &self.cells,
             is_corrected: self.is_corrected,
         }
+    }
+
+    pub(crate) fn storage(&self) -> &Storage {
+        &self.storage
     }
 
     fn interaction(&self) -> Arc<Interaction<C>> {

@@ -83,7 +83,8 @@ impl<const C: usize> FaultSystem<C> {
         }
     }
 
-    /// A fingerprint that other planes do not have, as far as 64 bits allow: of their cells, dips and places.
+    /// A fingerprint that other planes do not have, as far as 64 bits allow: of their cells, dips and places, and
+    /// of the surface.
     pub fn fingerprint(&self) -> u64 {
         // FNV-1a over words, as that of `Cells`.
         let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
@@ -94,6 +95,9 @@ impl<const C: usize> FaultSystem<C> {
             for word in [plane.cells().fingerprint()].into_iter().chain(words) {
                 hash = (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3);
             }
+        }
+        if let Some(surface) = &self.surface {
+            hash = (hash ^ surface.cells().fingerprint()).wrapping_mul(0x0000_0100_0000_01b3);
         }
         hash
     }

@@ -3,10 +3,11 @@
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+use super::between::Between;
 use super::blocks::Blocks;
 use super::placement::{Axes, Placement};
 use super::{SystemKernel, SystemNormalKernel, separation};
-use crate::{KernelError, PlaneFault, Rectangles};
+use crate::{KernelError, PlaneFault, Rectangles, SurfaceFault};
 
 /// The default limit of the memory of the blocks between planes: 2 GiB.
 const MEMORY: usize = 2 << 30;
@@ -29,6 +30,7 @@ const MEMORY: usize = 2 << 30;
 /// The matrix is not symmetric, and no energy belongs to it, because cells of constant slip are seen at their centres.
 /// Between cells that are small and far from each other it is symmetric to second order in their size by their
 /// distance. Beside each other, planes should be further apart than their cells are long.
+/// [`with_surface`](Self::with_surface) adds a surface of triangles to the planes.
 /// The coupling of both components of slip is not corrected between cells of planes that continue each other.
 ///
 /// ```
@@ -57,9 +59,11 @@ pub struct FaultSystem<const C: usize = 2> {
     pub(super) planes: Vec<PlaneFault<C>>,
     pub(super) placements: Vec<Placement>,
     pub(super) ranges: Vec<Range<usize>>,
+    pub(super) surface: Option<SurfaceFault<C>>,
     /// The shear blocks, shared by clones; computed on first use.
     shear: Arc<OnceLock<Arc<Blocks<C, C>>>>,
     normal: Arc<OnceLock<Arc<Blocks<1, C>>>>,
+    pub(super) between: Arc<OnceLock<Arc<Between<C>>>>,
 }
 
 impl<const C: usize> FaultSystem<C> {
@@ -97,8 +101,10 @@ impl<const C: usize> FaultSystem<C> {
             planes,
             placements,
             ranges,
+            surface: None,
             shear: Arc::default(),
             normal: Arc::default(),
+            between: Arc::default(),
         };
         system.check_planes()?;
         separation::check(&system)?;
@@ -149,7 +155,7 @@ impl<const C: usize> FaultSystem<C> {
 
     /// The bytes of the blocks between planes, of shear and normal stress.
     fn memory_between_planes(&self) -> f64 {
-        let count = self.vertex_count() as f64;
+        let count = self.vertices_of_planes() as f64;
         let pairs = (self.ranges.iter()).map(|plane| plane.len() as f64);
         let pairs: f64 = pairs.map(|cells| cells * (count - cells)).sum();
         pairs * (size_of::<f64>() * C * (C + 1)) as f64
@@ -170,9 +176,13 @@ impl<const C: usize> FaultSystem<C> {
         self.planes[plane].cells()
     }
 
-    /// The number of cells of all planes.
+    /// The number of cells of all planes, and of the surface if there is one.
     pub fn vertex_count(&self) -> usize {
-        self.ranges.last().map_or(0, |plane| plane.end)
+        let of_surface = self
+            .surface
+            .as_ref()
+            .map_or(0, |surface| surface.cells().count());
+        self.vertices_of_planes() + of_surface
     }
 
     /// The vertices of a plane's cells.
@@ -180,14 +190,26 @@ impl<const C: usize> FaultSystem<C> {
         self.ranges[plane].clone()
     }
 
-    /// The plane of a vertex, and the cell there.
+    /// The plane of a vertex, and the cell there; of a vertex of the surface the number of planes, and its cell.
     pub fn plane_and_cell(&self, vertex: usize) -> [usize; 2] {
         let plane = self.ranges.partition_point(|plane| plane.end <= vertex);
-        [plane, vertex - self.ranges[plane].start]
+        let before = plane
+            .checked_sub(1)
+            .map_or(0, |before| self.ranges[before].end);
+        [plane, vertex - before]
+    }
+
+    /// The surface and its cell at a vertex.
+    fn on_surface(&self, vertex: usize) -> Option<(&SurfaceFault<C>, usize)> {
+        let cell = vertex.checked_sub(self.vertices_of_planes())?;
+        Some((self.surface.as_ref()?, cell))
     }
 
     /// The centre of a cell, east, north and up from the surface \[m\].
     pub fn center(&self, vertex: usize) -> [f64; 3] {
+        if let Some((surface, cell)) = self.on_surface(vertex) {
+            return surface.cells().centroid(cell);
+        }
         let [plane, cell] = self.plane_and_cell(vertex);
         let center = self.cells(plane).center(cell);
         self.axes(plane).point(center).into()
@@ -195,6 +217,9 @@ impl<const C: usize> FaultSystem<C> {
 
     /// The area of a cell [m^2].
     pub fn area(&self, vertex: usize) -> f64 {
+        if let Some((surface, cell)) = self.on_surface(vertex) {
+            return surface.cells().area(cell);
+        }
         let [plane, _] = self.plane_and_cell(vertex);
         self.cells(plane).area()
     }
@@ -213,7 +238,17 @@ impl<const C: usize> FaultSystem<C> {
     pub fn stiffness(&self) -> SystemKernel<C> {
         let blocks = (self.shear).get_or_init(|| Arc::new(self.shear_blocks()));
         let planes = self.planes.iter().map(PlaneFault::stiffness);
-        SystemKernel::of_interaction(planes.collect(), Arc::clone(blocks)).on(self.identity())
+        let kernel = SystemKernel::of_interaction(planes.collect(), Arc::clone(blocks));
+        let kernel = kernel.on(self.identity());
+        match &self.surface {
+            Some(surface) => kernel.with_surface(surface.stiffness(), Some(self.between(surface))),
+            None => kernel,
+        }
+    }
+
+    fn between(&self, surface: &SurfaceFault<C>) -> Arc<Between<C>> {
+        let made = || Arc::new(Between::new(self, surface));
+        Arc::clone(self.between.get_or_init(made))
     }
 
     /// The change of normal stress per slip on all planes [Pa/m], compression positive. Its blocks between planes are
@@ -221,14 +256,22 @@ impl<const C: usize> FaultSystem<C> {
     pub fn normal_stiffness(&self) -> SystemNormalKernel<C> {
         let blocks = (self.normal).get_or_init(|| Arc::new(self.normal_blocks()));
         let planes = self.planes.iter().map(PlaneFault::normal_stiffness);
-        SystemNormalKernel::new(planes.collect(), Arc::clone(blocks), self.identity())
+        let normal = SystemNormalKernel::new(planes.collect(), Arc::clone(blocks), self.identity());
+        match &self.surface {
+            Some(surface) => normal.with_surface(surface.normal_stiffness(), self.between(surface)),
+            None => normal,
+        }
     }
 
     /// The radiation damping as a viscosity matrix, see [`PlaneFault::radiation_damping`] \[N s/m\].
     #[doc(alias = "quasi-dynamic")]
     pub fn radiation_damping(&self) -> SystemKernel<C> {
         let planes = self.planes.iter().map(PlaneFault::radiation_damping);
-        SystemKernel::of_planes(planes.collect()).on(self.identity())
+        let kernel = SystemKernel::of_planes(planes.collect()).on(self.identity());
+        match &self.surface {
+            Some(surface) => kernel.with_surface(surface.radiation_damping(), None),
+            None => kernel,
+        }
     }
 
     /// [`radiation_damping`](Self::radiation_damping) times a factor, finite and not negative.
@@ -239,6 +282,10 @@ impl<const C: usize> FaultSystem<C> {
         let planes = self.planes.iter();
         let planes = planes.map(|plane| plane.radiation_damping_times(factor));
         let planes = planes.collect::<Result<_, _>>()?;
-        Ok(SystemKernel::of_planes(planes).on(self.identity()))
+        let kernel = SystemKernel::of_planes(planes).on(self.identity());
+        Ok(match &self.surface {
+            Some(surface) => kernel.with_surface(surface.radiation_damping_times(factor)?, None),
+            None => kernel,
+        })
     }
 }

@@ -8,12 +8,14 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 use stickslip_core::compiled;
 use stickslip_solvers::{Matrix, MeshId, Operator};
 
+use super::between::Between;
 use super::blocks::{Blocks, Memory};
-use crate::PlaneKernel;
+use crate::interaction::{Vertices, add_forces, add_forces_at, work};
 use crate::plane::terms::Terms;
+use crate::{CellKernel, PlaneKernel};
 
 /// The matrix of the cells of several planes, on slip of `C` components: that of each plane, and dense blocks between
-/// them.
+/// them; with a surface also its [`CellKernel`], and hierarchical matrices between it and the planes.
 ///
 /// A product takes that of each plane ([`PlaneKernel`]) and two operations per number of the blocks. It runs in the
 /// operator's own memory and allocates nothing: threads that share one operator wait for each other. Clones and
@@ -28,8 +30,16 @@ pub struct SystemKernel<const C: usize> {
     planes: Vec<PlaneKernel<C>>,
     /// The interactions between planes.
     terms: Terms<Blocks<C, C>, Memory<C>>,
-    /// The cells of all planes.
+    surface: Option<OfSurface<C>>,
+    /// The cells of all planes, and of the surface.
     mesh: Option<MeshId>,
+}
+
+/// A surface behind the planes.
+#[derive(Clone)]
+struct OfSurface<const C: usize> {
+    own: CellKernel<C>,
+    between: Terms<Between<C>, ()>,
 }
 
 impl<const C: usize> Clone for SystemKernel<C> {
@@ -37,6 +47,7 @@ impl<const C: usize> Clone for SystemKernel<C> {
         Self {
             planes: self.planes.clone(),
             terms: self.terms.clone(),
+            surface: self.surface.clone(),
             mesh: self.mesh,
         }
     }
@@ -48,6 +59,7 @@ impl<const C: usize> SystemKernel<C> {
         Self {
             planes,
             terms: Terms::none(),
+            surface: None,
             mesh: None,
         }
     }
@@ -63,8 +75,28 @@ impl<const C: usize> SystemKernel<C> {
         Self {
             planes,
             terms: Terms::of(blocks, memory),
+            surface: None,
             mesh: None,
         }
+    }
+
+    /// The same matrix with a surface behind the planes.
+    pub(crate) fn with_surface(self, own: CellKernel<C>, between: Option<Arc<Between<C>>>) -> Self {
+        let between = between.map_or_else(Terms::none, |between| Terms::of(between, ()));
+        let surface = Some(OfSurface { own, between });
+        Self { surface, ..self }
+    }
+
+    /// The number of vertices of planes.
+    fn vertices_of_planes(&self) -> usize {
+        self.planes.iter().map(PlaneKernel::vertex_count).sum()
+    }
+
+    /// The factor and the sum of surfaces in terms.
+    fn surfaces<'a>(
+        terms: impl Iterator<Item = (f64, &'a Self)> + Clone,
+    ) -> impl Iterator<Item = (f64, &'a OfSurface<C>)> + Clone {
+        terms.filter_map(|(factor, term)| Some((factor, term.surface.as_ref()?)))
     }
 
     /// The planes with their vertices.
@@ -76,11 +108,15 @@ impl<const C: usize> SystemKernel<C> {
         })
     }
 
-    /// The plane of a vertex, and the cell there.
+    /// The plane of a vertex, and the cell there; of a vertex of the surface the number of planes, and its cell.
     fn plane_and_cell(&self, vertex: usize) -> [usize; 2] {
         let mut planes = self.planes().enumerate();
         let found = planes.find(|(_, (vertices, _))| vertices.contains(&vertex));
-        found.map_or([self.planes.len(), vertex], |(plane, (vertices, _))| {
+        let behind = [
+            self.planes.len(),
+            vertex.wrapping_sub(self.vertices_of_planes()),
+        ];
+        found.map_or(behind, |(plane, (vertices, _))| {
             [plane, vertex - vertices.start]
         })
     }
@@ -102,14 +138,14 @@ impl<const C: usize> SystemKernel<C> {
 }
 
 compiled! {
-    fn products_at<C>(
+    fn products_at<C in 1, 2>(
         kernel: &SystemKernel<C>,
         vertices: &[usize],
         x: &[SVector<f64, C>],
         products: &mut [SVector<f64, C>],
     ) {
+        let place = |vertex: usize| vertices.partition_point(|&other| other < vertex);
         for (of_plane, plane) in kernel.planes() {
-            let place = |vertex: usize| vertices.partition_point(|&other| other < vertex);
             let places = place(of_plane.start)..place(of_plane.end);
             if !places.is_empty() {
                 plane.products_at_vertices(
@@ -120,12 +156,26 @@ compiled! {
                 );
             }
         }
-        kernel.between_planes(vertices.iter().copied(), x, |place, value| {
-            products[place] += value;
+        let first = kernel.vertices_of_planes();
+        let (on_planes, on_surface) = vertices.split_at(place(first));
+        let (planes, surface) = x.split_at(first);
+        let (of_planes, of_surface) = products.split_at_mut(on_planes.len());
+        kernel.between_planes(on_planes.iter().copied(), planes, |place, value| {
+            of_planes[place] += value;
         });
+        if let Some(OfSurface { own, between }) = &kernel.surface {
+            let on_planes = Vertices { first: 0, vertices: on_planes };
+            let on_surface = Vertices { first, vertices: on_surface };
+            own.products_at_vertices(on_surface, surface, of_surface);
+            for term in between.present() {
+                let (between, factor) = (&term.interaction, term.factor);
+                add_forces_at(&between.on_planes, factor, on_planes, surface, of_planes);
+                add_forces_at(&between.on_surface, factor, on_surface, planes, of_surface);
+            }
+        }
     }
 
-    fn multiply_add<C>(
+    fn multiply_add<C in 1, 2>(
         kernel: &SystemKernel<C>,
         scale: f64,
         x: &[SVector<f64, C>],
@@ -134,13 +184,28 @@ compiled! {
         for (vertices, plane) in kernel.planes() {
             plane.multiply_add(scale, &x[vertices.clone()], &mut y[vertices]);
         }
-        kernel.between_planes(0..x.len(), x, |i, value| y[i] += value * scale);
+        let first = kernel.vertices_of_planes();
+        let (planes, surface) = x.split_at(first);
+        let (of_planes, of_surface) = y.split_at_mut(first);
+        kernel.between_planes(0..first, planes, |i, value| of_planes[i] += value * scale);
+        if let Some(OfSurface { own, between }) = &kernel.surface {
+            own.multiply_add(scale, surface, of_surface);
+            for term in between.present() {
+                let (between, factor) = (&term.interaction, scale * term.factor);
+                add_forces(&between.on_planes, factor, surface, of_planes);
+                add_forces(&between.on_surface, factor, planes, of_surface);
+            }
+        }
     }
 }
 
 impl<const C: usize> Matrix<C> for SystemKernel<C> {
     fn vertex_count(&self) -> usize {
-        self.planes.iter().map(PlaneKernel::vertex_count).sum()
+        let of_surface = self
+            .surface
+            .as_ref()
+            .map_or(0, |surface| surface.own.vertex_count());
+        self.vertices_of_planes() + of_surface
     }
 
     fn mesh(&self) -> Option<MeshId> {
@@ -165,7 +230,10 @@ impl<const C: usize> Matrix<C> for SystemKernel<C> {
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
         let [plane, cell] = self.plane_and_cell(i);
-        self.planes[plane].diagonal_block(cell)
+        match (self.planes.get(plane), &self.surface) {
+            (None, Some(surface)) => surface.own.diagonal_block(cell),
+            _ => self.planes[plane].diagonal_block(cell),
+        }
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
@@ -177,7 +245,16 @@ impl<const C: usize> Matrix<C> for SystemKernel<C> {
         let mut sum = planes
             .map(|(vertices, plane)| plane.quadratic(&x[vertices]))
             .sum();
-        self.between_planes(0..x.len(), x, |i, value| sum += x[i].dot(&value));
+        let (planes, surface) = x.split_at(self.vertices_of_planes());
+        self.between_planes(0..planes.len(), planes, |i, value| sum += x[i].dot(&value));
+        if let Some(OfSurface { own, between }) = &self.surface {
+            sum += own.quadratic(surface);
+            for term in between.present() {
+                let (between, factor) = (&term.interaction, term.factor);
+                sum += factor * work(&between.on_planes, surface, planes);
+                sum += factor * work(&between.on_surface, planes, surface);
+            }
+        }
         sum
     }
 }
@@ -199,6 +276,17 @@ impl<const C: usize> Operator<C> for SystemKernel<C> {
         });
         let mut sum = Self::of_planes(planes.collect());
         sum.mesh = first.and_then(|(_, term)| term.mesh);
+        let surfaces = Self::surfaces(terms.clone());
+        if surfaces.clone().next().is_some() {
+            let mut between = Terms::none();
+            between.set_sum(
+                surfaces
+                    .clone()
+                    .map(|(factor, term)| (factor, &term.between)),
+            );
+            let own = CellKernel::sum(surfaces.map(|(factor, term)| (factor, &term.own)));
+            sum.surface = Some(OfSurface { own, between });
+        }
         (sum.terms).set_sum(terms.map(|(factor, term)| (factor, &term.terms)));
         sum
     }
@@ -209,12 +297,25 @@ impl<const C: usize> Operator<C> for SystemKernel<C> {
             let of_plane = terms.clone();
             own.set_sum(of_plane.map(|(factor, term)| (factor, &term.planes[plane])));
         }
+        if let Some(OfSurface { own, between }) = &mut self.surface {
+            let surfaces = Self::surfaces(terms.clone());
+            between.set_sum(
+                surfaces
+                    .clone()
+                    .map(|(factor, term)| (factor, &term.between)),
+            );
+            own.set_sum(surfaces.map(|(factor, term)| (factor, &term.own)));
+        }
         (self.terms).set_sum(terms.map(|(factor, term)| (factor, &term.terms)));
     }
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
         let [plane, cell] = self.plane_and_cell(i);
-        self.planes[plane].add_to_diagonal(cell, block);
+        match (self.planes.get_mut(plane), &mut self.surface) {
+            (Some(plane), _) => plane.add_to_diagonal(cell, block),
+            (None, Some(surface)) => surface.own.add_to_diagonal(cell, block),
+            (None, None) => {}
+        }
     }
 }
 
@@ -228,10 +329,32 @@ impl<const C: usize> From<&SystemKernel<C>> for DMatrix<f64> {
             let mut own = dense.view_mut((first, first), (size, size));
             own.copy_from(&Self::from(plane));
         }
+        let first = kernel.vertices_of_planes();
+        let pairs = |rows: Range<usize>, columns: Range<usize>| {
+            rows.flat_map(move |i| columns.clone().map(move |j| (i, j)))
+        };
+        let mut add = |i: usize, j: usize, value: SMatrix<f64, C, C>| {
+            let mut block = dense.fixed_view_mut::<C, C>(C * i, C * j);
+            block += value;
+        };
         for term in kernel.terms.iter() {
-            for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
-                let mut block = dense.fixed_view_mut::<C, C>(C * i, C * j);
-                block += term.interaction.entry(i, j) * term.factor;
+            for (i, j) in pairs(0..first, 0..first) {
+                add(i, j, term.interaction.entry(i, j) * term.factor);
+            }
+        }
+        if let Some(OfSurface { own, between }) = &kernel.surface {
+            for (i, j) in pairs(first..count, first..count) {
+                add(i, j, own.block(i - first, j - first));
+            }
+            for term in between.iter() {
+                for (i, j) in pairs(0..first, first..count) {
+                    let Between {
+                        on_planes,
+                        on_surface,
+                    } = &*term.interaction;
+                    add(i, j, on_planes.force(i, j - first) * term.factor);
+                    add(j, i, on_surface.force(j - first, i) * term.factor);
+                }
             }
         }
         dense

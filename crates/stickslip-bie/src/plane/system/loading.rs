@@ -15,12 +15,17 @@ impl<const C: usize> FaultSystem<C> {
     /// The normal stress changes by [`normal_stiffness`](Self::normal_stiffness) times slip less plate motion.
     ///
     /// # Errors
-    /// [`KernelError`] for another number of rates than planes, and for a rate that is not finite.
+    /// [`KernelError`] for another number of rates than planes, a rate that is not finite, and a system with a surface, which
+    /// takes rates by cell: [`back_slip`](Self::back_slip).
     pub fn plate_loading(
         &self,
         rates: &[SVector<f64, C>],
     ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
     {
+        if self.surface.is_some() {
+            let what = "number of surfaces beside planes that creep each at one rate";
+            return Err(KernelError::new(what, "at most", 1.0).bound(0.0));
+        }
         if rates.len() != self.planes.len() {
             let (what, requirement) = ("number of plate rates", "that of the planes,");
             let error = KernelError::new(what, requirement, rates.len() as f64);
@@ -31,8 +36,8 @@ impl<const C: usize> FaultSystem<C> {
         self.back_slip(&rates)
     }
 
-    /// Plate loading by back slip, a load history: the force that relieves cells of all planes that slip at their
-    /// `rates` [m/s].
+    /// Plate loading by back slip, a load history: the force that relieves all cells, those of planes first, that slip
+    /// at their `rates` [m/s]; of one plate velocity, those of [`along`](Self::along).
     ///
     /// # Errors
     /// [`KernelError`] for another number of rates than cells, and for a rate that is not finite.
@@ -46,7 +51,7 @@ impl<const C: usize> FaultSystem<C> {
         Ok(relieving(&self.stiffness(), rates))
     }
 
-    /// A load history of shear stresses that grow at `rates` [Pa/s], one per cell of all planes.
+    /// A load history of shear stresses that grow at `rates` [Pa/s], one per cell.
     ///
     /// # Errors
     /// [`KernelError`] for another number of rates than cells, and for a rate that is not finite.

@@ -1,6 +1,7 @@
 //! Several planes in one half space.
 
 mod assembly;
+mod between;
 mod blocks;
 mod contacts;
 mod fault_system;
@@ -9,6 +10,7 @@ mod loading;
 mod normal;
 mod placement;
 mod separation;
+mod surface;
 
 pub use contacts::SystemSection;
 pub use fault_system::FaultSystem;

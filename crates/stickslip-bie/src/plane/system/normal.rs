@@ -8,8 +8,10 @@ use nalgebra::SVector;
 use stickslip_core::compiled;
 use stickslip_solvers::{MeshId, NormalStressChange};
 
+use super::between::Between;
 use super::blocks::{Blocks, Memory};
-use crate::PlaneNormalKernel;
+use crate::interaction::add_compressions;
+use crate::{CellNormalKernel, PlaneNormalKernel};
 
 /// The change of normal stress on the cells of several planes per slip on all of them [Pa/m], compression positive: `N`
 /// in `sigma = sigma_0 + N D`.
@@ -22,6 +24,7 @@ pub struct SystemNormalKernel<const C: usize> {
     planes: Vec<PlaneNormalKernel<C>>,
     blocks: Arc<Blocks<1, C>>,
     memory: Mutex<Memory<1>>,
+    surface: Option<(CellNormalKernel<C>, Arc<Between<C>>)>,
     mesh: MeshId,
 }
 
@@ -36,8 +39,23 @@ impl<const C: usize> SystemNormalKernel<C> {
             planes,
             blocks,
             memory,
+            surface: None,
             mesh,
         }
+    }
+
+    /// The same with a surface behind the planes.
+    pub(crate) fn with_surface(self, own: CellNormalKernel<C>, between: Arc<Between<C>>) -> Self {
+        let surface = Some((own, between));
+        Self { surface, ..self }
+    }
+
+    /// The number of vertices of planes.
+    fn vertices_of_planes(&self) -> usize {
+        self.planes
+            .iter()
+            .map(PlaneNormalKernel::vertex_count)
+            .sum()
     }
 
     /// The identity of the system, see [`FaultSystem::identity`](crate::FaultSystem::identity).
@@ -54,12 +72,13 @@ impl<const C: usize> SystemNormalKernel<C> {
         })
     }
 
-    /// The number of cells of all planes.
+    /// The number of cells of all planes, and of the surface.
     pub fn vertex_count(&self) -> usize {
-        self.planes
-            .iter()
-            .map(PlaneNormalKernel::vertex_count)
-            .sum()
+        let of_surface = self
+            .surface
+            .as_ref()
+            .map_or(0, |(own, _)| own.vertex_count());
+        self.vertices_of_planes() + of_surface
     }
 
     /// `normal_stress += scale N slip` \[Pa\], one number per cell in both.
@@ -69,6 +88,15 @@ impl<const C: usize> SystemNormalKernel<C> {
 
     /// The change of normal stress at vertex `i` per slip of vertex `j` [Pa/m].
     pub fn entry(&self, i: usize, j: usize) -> SVector<f64, C> {
+        let first = self.vertices_of_planes();
+        if let Some((own, between)) = &self.surface {
+            match [i, j].map(|vertex| vertex.checked_sub(first)) {
+                [Some(i), Some(j)] => return own.block(i, j),
+                [None, Some(j)] => return between.on_planes.compression_of(i, j),
+                [Some(i), None] => return between.on_surface.compression_of(i, j),
+                [None, None] => {}
+            }
+        }
         let mut planes = self.planes();
         match planes.find(|(vertices, _)| vertices.contains(&i) && vertices.contains(&j)) {
             Some((vertices, plane)) => plane.entry(i - vertices.start, j - vertices.start),
@@ -79,7 +107,10 @@ impl<const C: usize> SystemNormalKernel<C> {
 
 impl<const C: usize> Clone for SystemNormalKernel<C> {
     fn clone(&self) -> Self {
-        Self::new(self.planes.clone(), Arc::clone(&self.blocks), self.mesh)
+        Self {
+            surface: self.surface.clone(),
+            ..Self::new(self.planes.clone(), Arc::clone(&self.blocks), self.mesh)
+        }
     }
 }
 
@@ -101,13 +132,18 @@ impl<const C: usize> NormalStressChange<C> for SystemNormalKernel<C> {
         Some(self.mesh())
     }
 
+    fn bend(&self, vertex: usize) -> Option<f64> {
+        let cell = vertex.checked_sub(self.vertices_of_planes())?;
+        self.surface.as_ref()?.0.bend(cell)
+    }
+
     fn add(&self, scale: f64, slip: &[SVector<f64, C>], normal_stress: &mut [f64]) {
         self.multiply_add(scale, slip, normal_stress);
     }
 }
 
 compiled! {
-    fn multiply_add<C>(
+    fn multiply_add<C in 1, 2>(
         kernel: &SystemNormalKernel<C>,
         scale: f64,
         slip: &[SVector<f64, C>],
@@ -117,8 +153,15 @@ compiled! {
             plane.multiply_add(scale, &slip[vertices.clone()], &mut normal_stress[vertices]);
         }
         let mut memory = kernel.memory.lock().unwrap_or_else(PoisonError::into_inner);
-        (kernel.blocks).product(0..slip.len(), &mut memory, slip, |i, value| {
-            normal_stress[i] += scale * value[0];
+        let (planes, surface) = slip.split_at(kernel.vertices_of_planes());
+        let (on_planes, on_surface) = normal_stress.split_at_mut(planes.len());
+        (kernel.blocks).product(0..planes.len(), &mut memory, planes, |i, value| {
+            on_planes[i] += scale * value[0];
         });
+        if let Some((own, between)) = &kernel.surface {
+            own.multiply_add(scale, surface, on_surface);
+            add_compressions(&between.on_planes, scale, surface, None, on_planes);
+            add_compressions(&between.on_surface, scale, planes, None, on_surface);
+        }
     }
 }

@@ -3,6 +3,7 @@
 mod entries;
 mod operators;
 mod refusals;
+mod surface;
 mod symmetries;
 
 use nalgebra::DMatrix;
