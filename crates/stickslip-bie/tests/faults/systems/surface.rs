@@ -174,7 +174,7 @@ proptest! {
         let places = [at(0.0, [0.0, 0.0]), at(strike, [5e3 * along[0] + 8e3, 5e3 * along[1]])];
         let both = FaultSystem::new([(own.clone(), places[0]), (other.clone(), places[1])]).map_err(|error| fail(error.into()))?;
         let triangles = as_triangles(&other, places[1], 1).map_err(fail)?;
-        let system = FaultSystem::new([(own, places[0])]).and_then(|system| Ok(system.with_surface(triangles)));
+        let system = FaultSystem::new([(own, places[0])]).map(|system| system.with_surface(triangles));
         let system = system.map_err(|error| fail(error.into()))?.map_err(|error| fail(error.into()))?;
         // Uniform slip of the second one.
         let slip = SVector::from(along);
