@@ -4,8 +4,7 @@ mod averaging;
 mod consistency;
 mod dense;
 mod dislocation;
-#[cfg_attr(not(test), allow(dead_code, reason = "receivers off the fault"))]
-mod displacement;
+pub(crate) mod displacement;
 mod edges;
 mod elements;
 mod error;
@@ -18,6 +17,9 @@ mod normal;
 mod rock;
 mod section;
 mod stiffness;
+
+pub(crate) use edges::Loop;
+pub(crate) use rock::Rock;
 
 pub use dislocation::TriangularDislocation;
 pub use error::SurfaceError;
