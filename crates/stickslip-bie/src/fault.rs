@@ -146,6 +146,22 @@ impl Fault {
         self.sides.recip()
     }
 
+    pub(crate) fn rock(&self) -> Medium {
+        self.rock
+    }
+
+    pub(crate) fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    pub(crate) fn has_surface(&self) -> bool {
+        self.space == Space::Half
+    }
+
+    pub(crate) fn is_periodic(&self) -> bool {
+        self.space == Space::Periodic
+    }
+
     /// Its cells.
     pub fn cells(&self) -> &Cells {
         &self.cells

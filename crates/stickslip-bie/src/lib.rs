@@ -35,10 +35,13 @@
 //! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`HMatrix`] | a matrix of smooth interactions in clusters, with blocks of low rank between those far from each other ([`hmatrix`]) |
-//! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
+//! | [`Receivers`] | points off a fault: their displacement and stress due to slip, creep beyond the cells |
+//! | [`OffFault`], [`Sources`] | faults whose cells move what is beside them: of one's own, too |
+//! | [`ReceiverError`] | why there is no displacement at a point |
+//! | [`RectangularDislocation`] | the stress and the displacement of a rectangle that slips in a half space, at any point (Okada) |
 //! | [`Triangles`], [`CellAxes`], [`SurfaceQuality`] | a surface of triangles: sheets, axes and neighbours of its cells; STL files |
 //! | [`SurfaceError`] | why triangles are no surface |
-//! | [`TriangularDislocation`] | the stress of a triangle that slips, at any point |
+//! | [`TriangularDislocation`] | the stress and the displacement of a triangle that slips, at any point |
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -58,6 +61,7 @@ mod kernel;
 mod line;
 mod line_loads;
 mod loading;
+mod off_fault;
 mod overstress;
 mod pivots;
 mod plane;
@@ -72,6 +76,7 @@ pub use hmatrix::HMatrix;
 pub use interaction::{CellKernel, CellNormalKernel};
 pub use kernel::Kernel;
 pub use line::{DippingFault, DippingKernel, DippingNormalKernel, Sense};
+pub use off_fault::{OffFault, ReceiverError, Receivers, Sources};
 pub use overstress::Overstress;
 pub use plane::{
     FaultSystem, Placement, PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles,

@@ -119,6 +119,11 @@ impl DippingFault {
         self.dip
     }
 
+    /// The rock, and Poisson's ratio.
+    pub(crate) fn rock(&self) -> (Medium, f64) {
+        (self.rock, self.poisson_ratio)
+    }
+
     /// The sense of positive slip.
     pub fn sense(&self) -> Sense {
         self.sense

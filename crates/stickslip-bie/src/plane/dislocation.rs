@@ -1,4 +1,4 @@
-//! The stress of a rectangular dislocation in a half space.
+//! The stress and the displacement of a rectangular dislocation in a half space.
 
 use std::f64::consts::PI;
 
@@ -8,8 +8,9 @@ use super::angles::cos_sin;
 use super::okada::{self, Dip, Gradient};
 use crate::KernelError;
 use crate::error::positive;
+use crate::surface::displacement;
 
-/// A rectangle with constant slip in an elastic half space: the stress at any point (Okada).
+/// A rectangle with constant slip in an elastic half space: the stress (Okada) and the displacement at any point.
 ///
 /// The rectangle lies on a plane that meets the free surface at `y = z = 0` and dips to the right of strike. Axes: `x`
 /// along strike, `y` horizontal to the left, `z` up; the rock is at `z <= 0`. Slip is that of the hanging wall relative
@@ -104,6 +105,47 @@ impl RectangularDislocation {
         }
         stress
     }
+
+    /// The displacement \[m\] at a point `[x, y, z]` \[m\], `z <= 0`, of slip \[m\] along strike and up dip; zero far away.
+    ///
+    /// A point in the rectangle belongs to one of its sides, and half of the slip. On the edges of the rectangle the
+    /// displacement is not defined, and above the surface it has no meaning.
+    ///
+    /// ```
+    /// use stickslip_bie::RectangularDislocation;
+    ///
+    /// // The case of Okada, Bull. Seismol. Soc. Am. 75 (1985), Table 2: x = 2, y = 3, d = 4, dip 70 degrees, 3 x 2.
+    /// let (sin, cos) = 70_f64.to_radians().sin_cos();
+    /// // His plane ends at the depth 4 below y = 0: here it meets the surface at y = 0.
+    /// let bottom = 4.0 / sin;
+    /// let patch = RectangularDislocation::new([0.0, 3.0], [bottom - 2.0, bottom], 70.0, 1.0, 0.25)?;
+    /// let [x, y, z] = patch.displacement([1.0, 0.0], [2.0, 3.0 - bottom * cos, 0.0]);
+    /// let published = [-8.689e-3, -4.298e-3, -2.747e-3];
+    /// assert!([x, y, z].iter().zip(published).all(|(u, okada)| (u - okada).abs() < 1e-6));
+    /// # Ok::<(), stickslip_bie::KernelError>(())
+    /// ```
+    #[doc(alias("surface displacement", "geodesy"))]
+    pub fn displacement(&self, [strike, up_dip]: [f64; 2], at: [f64; 3]) -> [f64; 3] {
+        let Self { cos, sin, .. } = *self;
+        let slip = [strike, up_dip * cos, up_dip * sin];
+        let corners = corners(self.along_strike, self.down_dip, [cos, sin]);
+        displacement::half_space(&corners, slip, self.poisson_ratio, at)
+    }
+}
+
+/// The corners of a rectangle, counterclockwise as seen from the hanging wall, its directions along strike and up dip.
+fn corners(
+    [left, right]: [f64; 2],
+    [top, bottom]: [f64; 2],
+    [cos, sin]: [f64; 2],
+) -> [[f64; 3]; 4] {
+    let corner = |x: f64, down: f64| [x, -down * cos, -down * sin];
+    [
+        corner(left, bottom),
+        corner(right, bottom),
+        corner(right, top),
+        corner(left, top),
+    ]
 }
 
 /// Hooke's law, and a plane's axes.

@@ -17,6 +17,7 @@ mod modes;
 mod normal;
 mod okada;
 pub(crate) mod parts;
+mod patches;
 mod periodic;
 mod ranks;
 mod rectangles;

@@ -16,6 +16,8 @@ mod surface;
 #[cfg(feature = "csv")]
 mod table;
 
+pub(crate) use potentials::Space;
+
 pub use down::DipProfile;
 pub use error::SegmentsError;
 pub use fault::SegmentFault;

@@ -1,9 +1,9 @@
 //! Stress and displacement at points off the fault.
 
-use nalgebra::{Complex, Matrix3, SVector};
+use nalgebra::{Matrix3, SVector, Vector3};
 
-use super::influence::{Cell, Influence};
 use super::{SegmentFault, SegmentsError};
+use crate::off_fault::{Jump, Lines, Segment};
 use crate::{KernelError, Mode};
 
 /// The least distance of a receiver from the end of a cell, as a share of its length.
@@ -37,25 +37,11 @@ impl SegmentFault {
         slip: &[SVector<f64, 1>],
     ) -> Result<Vec<[f64; 3]>, SegmentsError> {
         self.check_receivers(points, slip)?;
-        let influence = self.influence();
+        let (lines, _) = self.lines();
         let of_point = |&[x, z]: &[f64; 2]| {
-            let z = Complex::new(x, z);
-            let mut sum = [0.0; 3];
-            for (cell, slip) in influence.cells.iter().zip(slip) {
-                match self.mode {
-                    Mode::Antiplane => {
-                        let jump = cell.side.antiplane_jump() * slip[0];
-                        sum[1] += influence.space.antiplane_displacement(cell.ends, jump, z);
-                    }
-                    Mode::InPlane { .. } => {
-                        let jump = in_plane_jump(&influence, cell, slip[0]);
-                        let moved = influence.space.in_plane_displacement(cell.ends, jump, z);
-                        sum[0] += moved.re;
-                        sum[2] += moved.im;
-                    }
-                }
-            }
-            sum
+            let (at, cells) = (Vector3::new(x, 0.0, z), slip.iter().enumerate());
+            let moved = cells.map(|(cell, slip)| lines.displacement(cell, &at) * slip[0]);
+            moved.sum::<Vector3<f64>>().into()
         };
         Ok(points.iter().map(of_point).collect())
     }
@@ -73,42 +59,32 @@ impl SegmentFault {
         slip: &[SVector<f64, 1>],
     ) -> Result<Vec<Matrix3<f64>>, SegmentsError> {
         self.check_receivers(points, slip)?;
-        let influence = self.influence();
+        let (lines, _) = self.lines();
         let of_point = |&[x, z]: &[f64; 2]| {
-            let z = Complex::new(x, z);
-            let mut stress = Matrix3::zeros();
-            for (cell, slip) in influence.cells.iter().zip(slip) {
-                stress += self.stress_of(&influence, cell, slip[0], z);
-            }
-            stress
+            let (at, cells) = (Vector3::new(x, 0.0, z), slip.iter().enumerate());
+            let stress = cells.map(|(cell, slip)| lines.stress(cell, &at) * slip[0]);
+            stress.sum::<Matrix3<f64>>()
         };
         Ok(points.iter().map(of_point).collect())
     }
 
-    fn stress_of(
-        &self,
-        influence: &Influence,
-        cell: &Cell,
-        slip: f64,
-        z: Complex<f64>,
-    ) -> Matrix3<f64> {
-        match self.mode {
-            Mode::Antiplane => {
-                let jump = cell.side.antiplane_jump() * slip;
-                let stress = influence.space.antiplane(cell.ends, jump, z);
-                let (xy, zy) = (stress.re, -stress.im);
-                Matrix3::new(0.0, xy, 0.0, xy, 0.0, zy, 0.0, zy, 0.0)
-            }
-            Mode::InPlane { .. } => {
-                let jump = in_plane_jump(influence, cell, slip);
-                let stress = influence.space.in_plane(cell.ends, jump, z);
-                let xx = 0.5 * (stress.trace - stress.deviator.re);
-                let zz = 0.5 * (stress.trace + stress.deviator.re);
-                let xz = 0.5 * stress.deviator.im;
-                let yy = influence.space.poisson_ratio() * stress.trace;
-                Matrix3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, zz)
-            }
-        }
+    /// The cells as sources, and whether there is a free surface.
+    pub(crate) fn lines(&self) -> (Lines, bool) {
+        let influence = self.influence();
+        let segments = influence.cells.iter().map(|cell| Segment {
+            ends: cell.ends,
+            jump: match self.mode {
+                Mode::Antiplane => Jump::Antiplane(cell.side.antiplane_jump()),
+                Mode::InPlane { .. } => {
+                    Jump::InPlane(cell.side.in_plane_jump(cell.direction) * influence.sense)
+                }
+            },
+        });
+        let lines = Lines {
+            space: influence.space,
+            segments: segments.collect(),
+        };
+        (lines, self.free_surface)
     }
 
     fn check_receivers(
@@ -142,9 +118,4 @@ impl SegmentFault {
         }
         Ok(())
     }
-}
-
-/// The jump across a cell, left minus right, due to its slip.
-fn in_plane_jump(influence: &Influence, cell: &Cell, slip: f64) -> Complex<f64> {
-    cell.side.in_plane_jump(cell.direction) * (influence.sense * slip)
 }

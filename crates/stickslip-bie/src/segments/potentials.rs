@@ -22,8 +22,8 @@ use crate::{Medium, Mode};
 /// Sources: N. I. Muskhelishvili, "Some Basic Problems of the Mathematical Theory of Elasticity", 1953, Secs. 32 and 112;
 /// J. P. Hirth and J. Lothe, "Theory of Dislocations", 1982, Secs. 3-2 and 3-4.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Space {
-    pub(super) shear_modulus: f64,
+pub(crate) struct Space {
+    pub(crate) shear_modulus: f64,
     /// `nu` in plane strain; 0 antiplane, where nothing depends on it.
     poisson_ratio: f64,
     free_surface: bool,
@@ -31,15 +31,15 @@ pub(super) struct Space {
 
 /// The stress in plane strain \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct InPlane {
+pub(crate) struct InPlane {
     /// `sxx + szz`.
-    pub(super) trace: f64,
+    pub(crate) trace: f64,
     /// `szz - sxx + 2 i sxz`.
-    pub(super) deviator: Complex<f64>,
+    pub(crate) deviator: Complex<f64>,
 }
 
 impl Space {
-    pub(super) fn new(rock: Medium, mode: Mode, free_surface: bool) -> Self {
+    pub(crate) fn new(rock: Medium, mode: Mode, free_surface: bool) -> Self {
         let poisson_ratio = match mode {
             Mode::Antiplane => 0.0,
             Mode::InPlane { poisson_ratio } => poisson_ratio,
@@ -52,7 +52,7 @@ impl Space {
     }
 
     /// `nu`.
-    pub(super) fn poisson_ratio(&self) -> f64 {
+    pub(crate) fn poisson_ratio(&self) -> f64 {
         self.poisson_ratio
     }
 
@@ -63,7 +63,7 @@ impl Space {
     }
 
     /// The stress of a segment at `z`.
-    pub(super) fn in_plane(
+    pub(crate) fn in_plane(
         &self,
         [begin, end]: [Complex<f64>; 2],
         jump: Complex<f64>,
@@ -99,7 +99,7 @@ impl Space {
     }
 
     /// The displacement `ux + i uz` of a segment at `z`, cut along the segment.
-    pub(super) fn in_plane_displacement(
+    pub(crate) fn in_plane_displacement(
         &self,
         [begin, end]: [Complex<f64>; 2],
         jump: Complex<f64>,
@@ -132,7 +132,7 @@ impl Space {
     }
 
     /// `sxy - i szy` of a segment at `z`, `-(i mu/(2 pi)) [f(end) - f(begin)]`, `f(z0) = 1/(z - z0) - 1/(z - z0*)`.
-    pub(super) fn antiplane(
+    pub(crate) fn antiplane(
         &self,
         [begin, end]: [Complex<f64>; 2],
         jump: f64,
@@ -146,7 +146,7 @@ impl Space {
     }
 
     /// The displacement along `y` of a segment at `z`, cut along the segment.
-    pub(super) fn antiplane_displacement(
+    pub(crate) fn antiplane_displacement(
         &self,
         [begin, end]: [Complex<f64>; 2],
         jump: f64,

@@ -1,4 +1,4 @@
-//! The stress of a triangular dislocation.
+//! The stress and the displacement of a triangular dislocation.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -7,7 +7,7 @@ use super::rock::Rock;
 use crate::KernelError;
 use crate::error::positive;
 
-/// A triangle with constant slip in an elastic whole or half space: the stress at any point.
+/// A triangle with constant slip in an elastic whole or half space: the stress and the displacement at any point.
 ///
 /// Slip `b` is that of the side to which `(v1 - v0) x (v2 - v0)` points, relative to the other; it may have a part along
 /// this normal, which opens the triangle. Tension is positive. The stress is a sum over the edges, with one root per
@@ -86,16 +86,30 @@ impl TriangularDislocation {
         })
     }
 
+    pub(crate) fn edges(&self) -> Loop {
+        self.edges
+    }
+
+    pub(crate) fn rock(&self) -> Rock {
+        self.rock
+    }
+
     /// The stress tensor \[Pa\] at a point of slip \[m\], both along the axes of the corners.
     ///
     /// It is not finite on the edges of the triangle, and without meaning above the surface of a half space.
     pub fn stress(&self, slip: [f64; 3], at: [f64; 3]) -> Matrix3<f64> {
         let (at, slips) = (Vector3::from(at), [Vector3::from(slip)]);
-        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let columns = axes.map(|normal| {
-            let [traction] = self.rock.tractions(&self.edges, &at, &normal, &slips);
-            traction
-        });
-        Matrix3::from_columns(&columns)
+        let [stress] = self.rock.stresses(&self.edges, &at, &slips);
+        stress
+    }
+
+    /// The displacement \[m\] at a point of slip \[m\], both along the axes of the corners; zero far away.
+    ///
+    /// A point in the triangle belongs to one of its sides, and half of the slip. On the edges of the triangle the displacement
+    /// is not defined, and above the surface of a half space it has no meaning.
+    pub fn displacement(&self, slip: [f64; 3], at: [f64; 3]) -> [f64; 3] {
+        let (at, slips) = (Vector3::from(at), [Vector3::from(slip)]);
+        let [displacement] = self.rock.displacements(&self.edges, &at, &slips);
+        displacement.into()
     }
 }

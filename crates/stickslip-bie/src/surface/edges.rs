@@ -26,19 +26,19 @@ impl Elastic {
     }
 }
 
-/// A triangle as a loop: its corners, and the unit tangents of the edges that begin there.
+/// A triangle, or another plane polygon, as a loop: its corners, and the unit tangents of the edges that begin there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Loop {
-    pub(crate) corners: [Vector3<f64>; 3],
-    tangents: [Vector3<f64>; 3],
+pub(crate) struct Loop<const K: usize = 3> {
+    pub(crate) corners: [Vector3<f64>; K],
+    tangents: [Vector3<f64>; K],
 }
 
-impl Loop {
-    pub(crate) fn new(corners: [Vector3<f64>; 3]) -> Self {
-        let edge = |k: usize| corners[(k + 1) % 3] - corners[k];
+impl<const K: usize> Loop<K> {
+    pub(crate) fn new(corners: [Vector3<f64>; K]) -> Self {
+        let edge = |k: usize| corners[(k + 1) % K] - corners[k];
         Self {
             corners,
-            tangents: [0, 1, 2].map(|k| edge(k) / edge(k).norm()),
+            tangents: std::array::from_fn(|k| edge(k) / edge(k).norm()),
         }
     }
 
@@ -62,8 +62,8 @@ impl Loop {
         let mut screw = [Vector3::zeros(); S];
         let mut edge = [Vector3::zeros(); S];
         let mut pressure = [0.0; S];
-        for k in 0..3 {
-            let (next, t) = ((k + 1) % 3, self.tangents[k]);
+        for k in 0..K {
+            let (next, t) = ((k + 1) % K, self.tangents[k]);
             let ends = [-from[k].dot(&t), -from[next].dot(&t)];
             let d = from[k] + t * ends[0];
             let [j30, j31, j50, j51, j52] = integrals(ends, [inverse[k], inverse[next]], &d);

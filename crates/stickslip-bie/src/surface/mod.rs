@@ -3,8 +3,7 @@
 mod averaging;
 mod consistency;
 mod dislocation;
-#[cfg_attr(not(test), allow(dead_code, reason = "receivers off the fault"))]
-mod displacement;
+pub(crate) mod displacement;
 mod edges;
 mod elements;
 mod error;
@@ -18,6 +17,9 @@ mod section;
 mod stiffness;
 
 pub(crate) use averaging::Averaging;
+pub(crate) use edges::Loop;
+pub(crate) use rock::Rock;
+
 pub use dislocation::TriangularDislocation;
 pub use error::SurfaceError;
 pub use fault::SurfaceFault;

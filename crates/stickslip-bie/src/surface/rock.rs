@@ -1,9 +1,9 @@
 //! Tractions of triangles in a whole or half space.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::edges::{Elastic, Loop};
-use super::harmonic;
+use super::{displacement, harmonic};
 use crate::KernelError;
 use crate::error::positive;
 use crate::plane::require_poisson_ratio;
@@ -41,11 +41,45 @@ impl Rock {
         self.has_surface
     }
 
+    /// The stress tensor at a point for each slip of a triangle or another polygon.
+    pub(crate) fn stresses<const S: usize, const K: usize>(
+        &self,
+        source: &Loop<K>,
+        at: &Vector3<f64>,
+        slips: &[Vector3<f64>; S],
+    ) -> [Matrix3<f64>; S] {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let columns = axes.map(|normal| self.tractions(source, at, &normal, slips));
+        std::array::from_fn(|s| {
+            let tractions = [columns[0][s], columns[1][s], columns[2][s]];
+            Matrix3::from_columns(&tractions)
+        })
+    }
+
+    /// The displacement at a point for each slip of a triangle or a rectangle.
+    pub(crate) fn displacements<const S: usize, const K: usize>(
+        &self,
+        source: &Loop<K>,
+        at: &Vector3<f64>,
+        slips: &[Vector3<f64>; S],
+    ) -> [Vector3<f64>; S] {
+        let corners = source.corners.map(Into::into);
+        let of = |slip: Vector3<f64>| {
+            let (slip, point, nu) = (slip.into(), (*at).into(), self.poisson_ratio);
+            if self.has_surface {
+                displacement::half_space(&corners, slip, nu, point).into()
+            } else {
+                displacement::whole_space(&corners, slip, nu, point).into()
+            }
+        };
+        slips.map(of)
+    }
+
     /// The traction at a point on a plane with a unit normal for each slip of a triangle.
     #[inline(always)]
-    pub(crate) fn tractions<const S: usize>(
+    pub(crate) fn tractions<const S: usize, const K: usize>(
         &self,
-        source: &Loop,
+        source: &Loop<K>,
         at: &Vector3<f64>,
         normal: &Vector3<f64>,
         slips: &[Vector3<f64>; S],
@@ -59,9 +93,9 @@ impl Rock {
 
     /// The same in a whole space.
     #[inline(always)]
-    pub(crate) fn without_surface<const S: usize>(
+    pub(crate) fn without_surface<const S: usize, const K: usize>(
         &self,
-        source: &Loop,
+        source: &Loop<K>,
         at: &Vector3<f64>,
         normal: &Vector3<f64>,
         slips: &[Vector3<f64>; S],
@@ -70,9 +104,9 @@ impl Rock {
     }
 
     /// Adds the mirror image of the triangle, which is the triangle at the mirrored point, and the harmonic part.
-    fn add_surface<const S: usize>(
+    fn add_surface<const S: usize, const K: usize>(
         &self,
-        source: &Loop,
+        source: &Loop<K>,
         at: &Vector3<f64>,
         normal: &Vector3<f64>,
         slips: &[Vector3<f64>; S],

@@ -3,6 +3,7 @@
 use stickslip_solvers::MeshId;
 
 use super::SurfaceFault;
+use super::rock::Rock;
 use crate::KernelError;
 
 /// Some cells of a [`SurfaceFault`] as a contact.
@@ -49,6 +50,10 @@ impl SurfaceSection {
 }
 
 impl<const C: usize> SurfaceFault<C> {
+    pub(crate) fn elastic_rock(&self) -> Rock {
+        self.rock
+    }
+
     /// The cells whose centroids \[m\] are inside.
     ///
     /// # Errors

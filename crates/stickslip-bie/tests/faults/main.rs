@@ -8,6 +8,7 @@ mod hmatrix;
 mod loads;
 mod operators;
 mod planes;
+mod receivers;
 mod refusals;
 mod segments;
 mod surfaces;

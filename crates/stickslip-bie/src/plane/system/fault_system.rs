@@ -229,7 +229,7 @@ impl<const C: usize> FaultSystem<C> {
         self.planes[plane].dip().unwrap_or(90.0)
     }
 
-    pub(super) fn axes(&self, plane: usize) -> Axes {
+    pub(crate) fn axes(&self, plane: usize) -> Axes {
         self.placements[plane].axes(self.dip(plane))
     }
 

@@ -16,4 +16,5 @@ pub use contacts::SystemSection;
 pub use fault_system::FaultSystem;
 pub use kernel::SystemKernel;
 pub use normal::SystemNormalKernel;
+pub(crate) use placement::Axes;
 pub use placement::Placement;

@@ -72,6 +72,11 @@ impl Axes {
         }
     }
 
+    /// A plane of its own: along its strike, horizontally to the left of it, and up.
+    pub(crate) fn own(dip: f64) -> Self {
+        Self::new([0.0, 0.0], [1.0, 0.0], dip)
+    }
+
     /// The point at a distance along strike and one from the surface down dip.
     pub(crate) fn point(&self, [x, y]: [f64; 2]) -> Vector3<f64> {
         self.origin + self.strike * x - self.up_dip * y

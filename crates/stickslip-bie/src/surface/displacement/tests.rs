@@ -104,3 +104,35 @@ fn the_surface_moves_as_below_it() {
     let [harmonic] = harmonic::displacement(&triangle, &slips, 0.25, [1.0, 0.5, 0.0]);
     assert!(harmonic.iter().all(|u| u.is_finite()));
 }
+
+/// Source: Y. Okada, Bull. Seismol. Soc. Am. 75 (1985), Table 2, case 2: the origin is at the lower left corner of the rectangle,
+/// 4 deep, 3 long and 2 wide, dip 70 degrees, seen from x = 2, y = 3 at the surface. Four digits are published.
+#[test]
+fn okada_published_these_displacements() {
+    let (sin, cos) = 70_f64.to_radians().sin_cos();
+    let corner = |x: f64, up: f64| [x, up * cos, up * sin - 4.0];
+    let corners = [
+        corner(0.0, 0.0),
+        corner(3.0, 0.0),
+        corner(3.0, 2.0),
+        corner(0.0, 2.0),
+    ];
+    let [a, b, c, d] = corners;
+    for (slip, published) in [
+        ([1.0, 0.0, 0.0], [-8.689e-3, -4.298e-3, -2.747e-3]),
+        ([0.0, cos, sin], [-4.682e-3, -3.527e-2, -3.564e-2]),
+        ([0.0, -sin, cos], [-2.660e-4, 1.056e-2, 3.214e-3]),
+    ] {
+        let at = [2.0, 3.0, 0.0];
+        let found = half_space(&corners, slip, 0.25, at);
+        let parts = [[a, b, c], [a, c, d]].map(|part| half_space(&part, slip, 0.25, at));
+        for i in 0..3 {
+            let digit = 10_f64.powf(f64::abs(published[i]).log10().floor() - 3.0);
+            assert!(
+                (found[i] - published[i]).abs() < 0.51 * digit,
+                "{found:?} {published:?}"
+            );
+            assert!((parts[0][i] + parts[1][i] - found[i]).abs() < 1e-14);
+        }
+    }
+}

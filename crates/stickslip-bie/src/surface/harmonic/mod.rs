@@ -1,4 +1,4 @@
-//! The harmonic part of a triangular dislocation in a half space `z <= 0`.
+//! The harmonic part of a triangular dislocation, or one with more corners, in a half space `z <= 0`.
 //!
 //! Stress in a half space is the sum of three parts:
 //!
@@ -60,15 +60,15 @@ struct Edge {
 ///
 /// A slip is that of the side to which `(v1 - v0) x (v2 - v0)` points, relative to the other. Heights are at most 0; the receiver
 /// is not at a vertex or edge that is at the surface.
-pub(crate) fn stress<const N: usize>(
-    triangle: &[[f64; 3]; 3],
+pub(crate) fn stress<const N: usize, const K: usize>(
+    corners: &[[f64; 3]; K],
     slips: &[[f64; 3]; N],
     poisson_ratio: f64,
     point: [f64; 3],
 ) -> [[f64; 6]; N] {
     let k = (1.0 - poisson_ratio).recip();
     let mut stresses = [[0.0; 6]; N];
-    for edge in edges(triangle, point) {
+    for edge in edges(corners, point) {
         let ends = Ends::new(edge.from_ends, edge.direction);
         let jets = jets(&ends, edge.direction, edge.heights, k);
         let potentials = jets.map(|jet| jet.map(|both| edge.share * both.drop()));
@@ -85,15 +85,15 @@ pub(crate) fn stress<const N: usize>(
 /// ```text
 /// u_i = [(1 - 2 nu) phi,i + z phi,iz]/(2 mu)     u_z = [2 (1 - nu) phi,z - z phi,zz]/(2 mu)     i = x, y
 /// ```
-pub(crate) fn displacement<const N: usize>(
-    triangle: &[[f64; 3]; 3],
+pub(crate) fn displacement<const N: usize, const K: usize>(
+    corners: &[[f64; 3]; K],
     slips: &[[f64; 3]; N],
     poisson_ratio: f64,
     point: [f64; 3],
 ) -> [[f64; 3]; N] {
     let k = (1.0 - poisson_ratio).recip();
     let mut displacements = [[0.0; 3]; N];
-    for edge in edges(triangle, point) {
+    for edge in edges(corners, point) {
         let ends = Ends::new(edge.from_ends, edge.direction);
         let slopes = slopes(&ends, edge.direction, edge.heights, k);
         let potentials = slopes.map(|slopes| slopes.map(|both| edge.share * both.drop()));
@@ -105,9 +105,9 @@ pub(crate) fn displacement<const N: usize>(
     displacements
 }
 
-/// The edges of a triangle.
-fn edges(triangle: &[[f64; 3]; 3], point: [f64; 3]) -> impl Iterator<Item = Edge> {
-    let pairs = [0, 1, 2].map(|first| [triangle[first], triangle[(first + 1) % 3]]);
+/// The edges of a triangle or another polygon.
+fn edges<const K: usize>(corners: &[[f64; 3]; K], point: [f64; 3]) -> impl Iterator<Item = Edge> {
+    let pairs: [_; K] = std::array::from_fn(|first| [corners[first], corners[(first + 1) % K]]);
     (pairs.into_iter()).filter_map(move |ends| Edge::seen(ends, point))
 }
 

@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_bie::{
-    FaultGeometry, FaultSystem, Placement, PlaneFault, SurfaceFault, SystemKernel, Triangles,
+    FaultGeometry, FaultSystem, Placement, PlaneFault, Receivers, SurfaceFault, SystemKernel,
+    Triangles,
 };
 use stickslip_solvers::{Matrix, Operator};
 
@@ -142,6 +143,29 @@ fn products_are_those_of_the_matrix() -> Outcome {
     let rates = system.along([0.0, 1e-9, 0.0]);
     assert!(system.back_slip(&rates).is_ok() && rates.len() == count + 24);
     assert!(system.plate_loading(&[SVector::zeros(); 3]).is_err());
+    Ok(())
+}
+
+/// Off the fault, cells of planes and of the surface add up.
+#[test]
+fn receivers_see_planes_and_the_surface() -> Outcome {
+    let system = FaultSystem::new(planes(0.0)?)?.with_surface(sheet([4, 3], 0.0)?)?;
+    let points = [[1e3, 2e3, 0.0], [6e3, -500.0, -3e3]];
+    let slip = field::<2>(9, system.vertex_count());
+    let first = system.vertices_of_surface().start;
+    let both = Receivers::new(&system, &points)?.displacement(&slip)?;
+    let of_planes = Receivers::new(&FaultSystem::new(planes(0.0)?)?, &points)?;
+    let of_surface = Receivers::new(&sheet([4, 3], 0.0)?, &points)?;
+    let [of_planes, of_surface] = [
+        of_planes.displacement(&slip[..first])?,
+        of_surface.displacement(&slip[first..])?,
+    ];
+    for k in 0..2 {
+        for c in 0..3 {
+            let sum = of_planes[k][c] + of_surface[k][c];
+            assert!((both[k][c] - sum).abs() < 1e-12, "{k} {c}");
+        }
+    }
     Ok(())
 }
 
