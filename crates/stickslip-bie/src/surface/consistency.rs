@@ -1,11 +1,13 @@
 //! The correction that makes tractions of constant triangles converge.
 //!
-//! The traction of cells of constant slip at centroids has an error in proportion to the gradient of slip, whatever the
-//! size of the cells: a zigzag between neighbours. On a plane the slip `a (r . e) phi(r)`, odd about the centroid of a
-//! cell, has no traction there, so that what the cells have is the error for this gradient. It is subtracted for the
-//! gradient that a cell and its three neighbours have.
+//! The traction of cells of constant slip at centroids has an error that alternates between neighbours and is in
+//! proportion to the gradient of slip, whatever the size of the cells. On a plane a slip `a (r . e) phi(|r|)` about the
+//! centroid of a cell has no traction at that centroid, because it is odd. The traction that the cells give for it is
+//! therefore the error at a gradient of 1. This error times the gradient of slip, by a linear fit to a cell and its
+//! neighbours, is subtracted.
 //!
-//! At a free surface the plane goes on above it, in reflected cells: there the slip goes on, which ends at other rims.
+//! At a free surface the plane is continued above it by reflected cells. At other rims slip ends, and so does the slip
+//! `a (r . e) phi(|r|)`; cells at these rims are left as they are.
 
 use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
 
