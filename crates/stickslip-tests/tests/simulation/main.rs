@@ -39,6 +39,7 @@ mod rest;
 mod restart;
 mod ruina_and_others;
 mod second_order;
+mod self_similar;
 mod slider_reference;
 mod stretched;
 mod substitutions;
