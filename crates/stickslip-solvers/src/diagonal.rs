@@ -7,6 +7,7 @@ use stickslip_core::compiled;
 use crate::block::{decouple, inverse};
 use crate::block_matrix::Rows;
 use crate::field::clear_masked;
+use crate::parts::sum_parts;
 use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping};
 
 /// Solves a block diagonal problem exactly, one vertex after the other. An explicit scheme with a lumped mass has such
@@ -17,7 +18,10 @@ use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveRepor
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Diagonal<const C: usize> {
-    inverses: Vec<SMatrix<f64, C, C>>,
+    /// The diagonals of the inverse blocks; of vertices with other entries, those are in `coupled`.
+    inverses: Vec<SVector<f64, C>>,
+    /// The vertices whose inverse block is not diagonal, increasing, and it.
+    coupled: Vec<(usize, SMatrix<f64, C, C>)>,
     /// The blocks of the frictional vertices.
     blocks: Vec<SMatrix<f64, C, C>>,
     minimizers: Vec<SVector<f64, C>>,
@@ -120,6 +124,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
         let rows = Rows::of(energy.operator);
         let mut pairs: Vec<([usize; 2], SMatrix<f64, C, C>)> = Vec::new();
         self.inverses.clear();
+        self.coupled.clear();
         self.held.clear();
         for (vertex, fixed) in energy.fixed.iter().enumerate() {
             let refused = SolveError::NotDiagonal { vertex };
@@ -148,14 +153,18 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
                     }
                     _ => {}
                 }
-                self.inverses.push(SMatrix::zeros());
+                self.inverses.push(SVector::zeros());
                 continue;
             }
             let Some((_, block)) = first else {
                 return Err(refused);
             };
             let inverse = inverse(block, fixed).ok_or(SolveError::IndefiniteBlock { vertex })?;
-            self.inverses.push(inverse);
+            let diagonal = inverse.diagonal();
+            if inverse != SMatrix::from_diagonal(&diagonal) {
+                self.coupled.push((vertex, inverse));
+            }
+            self.inverses.push(diagonal);
             if fixed.iter().any(|&fixed| fixed) {
                 self.held.push(vertex);
             }
@@ -206,27 +215,40 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
         for (held, &i) in self.prescribed.iter_mut().zip(&self.held) {
             *held = prescribed(i, &v[i]);
         }
-        let mut sum = SVector::<f64, C>::zeros();
-        for ((v, inverse), load) in v.iter_mut().zip(&self.inverses).zip(energy.load) {
-            *v = inverse * load;
-            sum += *v;
+        let mut sum = sum_parts(0..v.len(), &mut *v, &|part, v| {
+            let mut sum = SVector::<f64, C>::zeros();
+            let (inverses, load) = (&self.inverses[part.clone()], &energy.load[part]);
+            for ((v, inverse), load) in v.iter_mut().zip(inverses).zip(load) {
+                *v = inverse.component_mul(load);
+                sum += *v;
+            }
+            sum.sum()
+        });
+        for (i, inverse) in &self.coupled {
+            v[*i] = inverse * energy.load[*i];
+            sum += v[*i].sum();
         }
         // The inverse is zero where a component is fixed.
         for (held, &i) in self.prescribed.iter().zip(&self.held) {
-            v[i] += held - self.inverses[i] * (own(i) * held);
+            let pull = own(i) * held;
+            let place = self.coupled.binary_search_by_key(&i, |(vertex, _)| *vertex);
+            v[i] += held
+                - match place {
+                    Ok(place) => self.coupled[place].1 * pull,
+                    Err(_) => self.inverses[i].component_mul(&pull),
+                };
         }
         for &k in &self.single {
             v[energy.vertices[k]] = self.minimizers[k];
-            sum += self.minimizers[k];
+            sum += self.minimizers[k].sum();
         }
         for (paired, pair) in self.paired.iter().zip(&self.pairs) {
             for (&i, velocity) in pair.vertices.iter().zip(paired) {
                 v[i] = *velocity;
-                sum += velocity;
+                sum += velocity.sum();
             }
         }
         // A sum of finite numbers that overflows is no velocity either.
-        let sum = sum.sum();
         if sum.is_finite() {
             Ok(SolveReport {
                 iterations: 1,

@@ -87,6 +87,8 @@ mod dense;
 mod dense_matrix;
 #[cfg(feature = "sparse")]
 mod diagonal;
+#[cfg(feature = "fem")]
+mod element_operator;
 mod energy;
 mod error;
 mod field;
@@ -166,6 +168,8 @@ pub use conjugate_gradients::ConjugateGradients;
 pub use dense::DenseNewton;
 #[cfg(feature = "sparse")]
 pub use diagonal::Diagonal;
+#[cfg(feature = "fem")]
+pub use element_operator::ElementOperator;
 pub use energy::Energy;
 pub use error::SolveError;
 pub use frames::Frames;
@@ -187,6 +191,8 @@ pub use mesh_mismatch::MeshMismatch;
 pub use multigrid_solver::MultigridSolver;
 pub use normal_stress_change::NormalStressChange;
 pub use operator::Operator;
+#[doc(hidden)]
+pub use parts::{Divide, for_parts, sum_parts};
 pub use point::Point;
 pub use potentials::Potentials;
 pub use ranks::{Collective, Ranks};

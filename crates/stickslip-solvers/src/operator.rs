@@ -55,6 +55,12 @@ pub trait Operator<const C: usize>: Matrix<C> + Sized + 'static {
         None
     }
 
+    /// Whether operators of this format have rows, as solvers of implicit steps need them; true by default. Without, as with a
+    /// stiffness by elements, a scene takes explicit schemes alone.
+    fn has_rows() -> bool {
+        true
+    }
+
     /// The name of the format in messages; that of its type by default.
     fn format() -> &'static str {
         type_name::<Self>()

@@ -12,7 +12,7 @@ const PART: usize = 8192;
 const CONTACT_PART: usize = 512;
 
 /// Data that can be cut in two, given the number of vertices and of parts before the cut.
-pub(crate) trait Divide: Sized + Send {
+pub trait Divide: Sized + Send {
     /// The data before and after the cut.
     fn divide(self, vertices: usize, parts: usize) -> (Self, Self);
 }
@@ -115,8 +115,7 @@ pub(crate) fn for_each<F: Divide>(cuts: &[usize], fields: F, work: &(impl Fn(usi
 }
 
 /// `work(vertices, fields)` on parts of the fields with the range of their vertices.
-#[cfg(feature = "sparse")]
-pub(crate) fn for_parts<F: Divide>(
+pub fn for_parts<F: Divide>(
     vertices: Range<usize>,
     fields: F,
     work: &(impl Fn(Range<usize>, F) + Sync),
@@ -128,7 +127,7 @@ pub(crate) fn for_parts<F: Divide>(
 }
 
 /// The sum of `work(vertices, fields)` over parts of the fields.
-pub(crate) fn sum_parts<F: Divide>(
+pub fn sum_parts<F: Divide>(
     vertices: Range<usize>,
     fields: F,
     work: &(impl Fn(Range<usize>, F) -> f64 + Sync),

@@ -76,9 +76,12 @@ pub(crate) fn multiply_add<T: Entry<C>, const C: usize>(
 ) {
     if rows.is_diagonal() {
         // As a lumped mass is: nothing to look up.
-        for ((y, entry), x) in y.iter_mut().zip(rows.values).zip(x) {
-            *y += entry.times(x) * scale;
-        }
+        for_parts(0..y.len(), y, &|part, y| {
+            let (values, x) = (&rows.values[part.clone()], &x[part]);
+            for ((y, entry), x) in y.iter_mut().zip(values).zip(x) {
+                *y += entry.times(x) * scale;
+            }
+        });
         return;
     }
     let arch = Arch::new();

@@ -126,6 +126,7 @@ pub struct Counters {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not solve velocity problems with the matrix `{Op}` of {C} components",
     note = "a `BlockMatrix`, as finite elements assemble it, takes `Condensed`, `Tnnmg` or `BlockGaussSeidel`",
+    note = "an `ElementOperator`, of an `ElementStiffness`, takes `Diagonal` and an explicit scheme",
     note = "a `Symmetric`, of a reduced body, and a `DMatrix` take `DenseNewton`; an `SMatrix`, of a single vertex, takes `Point`",
     note = "the kernel of a fault by boundary integrals takes `RungeKutta` instead of a simulation, or `DenseNewton` as a `DMatrix::from(&kernel)`"
 )]

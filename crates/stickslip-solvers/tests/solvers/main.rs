@@ -10,6 +10,7 @@ mod conformance;
 mod convergence;
 mod dense;
 mod descent;
+mod elements;
 mod errors;
 mod graded;
 mod linear;

@@ -1,0 +1,162 @@
+//! Cells in groups that fit into the cache, with the vertices of each group numbered by themselves.
+
+use nalgebra::SVector;
+
+use super::kernel::Corners;
+use super::lanes::{Row, row};
+use crate::Mesh;
+use crate::numbering::{bounding_box, ranks};
+
+/// The most vertices of a part of the body that makes a group, beside those on its border.
+const PART: usize = 2048;
+
+/// The most vertices of a group, borders included: its corners are 16-bit numbers.
+const MOST: usize = 1 << 16;
+
+/// The cells of a mesh in groups.
+#[derive(Debug)]
+pub(super) struct Groups {
+    /// The first vertex of each group in `vertices`, and the number of all.
+    pub(super) starts: Vec<usize>,
+    /// The first four cells of each group in `corners`, and the number of all.
+    pub(super) fours: Vec<usize>,
+    /// The number of cells in the last four of each group.
+    pub(super) live: Vec<usize>,
+    /// The vertices of the groups, increasing within one.
+    pub(super) vertices: Vec<u32>,
+    /// Their positions \[m\].
+    pub(super) positions: Vec<Row>,
+    /// The cells, by fours; the last four of a group repeat its last cell.
+    pub(super) corners: Vec<Corners>,
+    /// The corners of a cell.
+    corners_of_cell: usize,
+    /// The number of each cell among the cells of the mesh, by fours.
+    pub(super) cells: Vec<[u32; 4]>,
+}
+
+impl Groups {
+    /// The groups of a mesh: cells of one part of its vertices, by the first of their corners.
+    pub(super) fn of<const D: usize>(mesh: &Mesh<D>) -> Self {
+        let order = parts(mesh.vertices());
+        let rank = ranks(&order);
+        let first = |cell: u32| {
+            let corners = mesh.cell(cell as usize).iter();
+            corners.map(|&p| rank[p as usize]).min().unwrap_or_default()
+        };
+        let part = |cell: u32| first(cell) / PART as u32;
+        let mut cells: Vec<(u32, u32)> = (0..mesh.cell_count() as u32)
+            .map(|cell| (part(cell), cell))
+            .collect();
+        cells.sort_unstable();
+        let mut groups = Self {
+            starts: vec![0],
+            fours: vec![0],
+            live: Vec::new(),
+            vertices: Vec::new(),
+            positions: Vec::new(),
+            corners: Vec::with_capacity(cells.len().div_ceil(4)),
+            cells: Vec::with_capacity(cells.len().div_ceil(4)),
+            corners_of_cell: D + 1,
+        };
+        let mut places = vec![u32::MAX; mesh.vertex_count()];
+        for part in cells.chunk_by(|a, b| a.0 == b.0) {
+            let mut cells: Vec<u32> = part.iter().map(|&(_, cell)| cell).collect();
+            cells.sort_by_cached_key(|&cell| lowest(mesh, cell));
+            // So many cells have at most so many vertices.
+            for cells in cells.chunks(MOST / (D + 1)) {
+                groups.push(mesh, cells, &mut places);
+            }
+        }
+        groups
+    }
+
+    /// Adds a group; `places` is memory of one number per vertex.
+    fn push<const D: usize>(&mut self, mesh: &Mesh<D>, cells: &[u32], places: &mut [u32]) {
+        let begin = self.vertices.len();
+        let all = cells.iter().flat_map(|&cell| mesh.cell(cell as usize));
+        self.vertices.extend(all);
+        self.vertices[begin..].sort_unstable();
+        let mut vertices = self.vertices.split_off(begin);
+        vertices.dedup();
+        for (place, &vertex) in (0..).zip(&vertices) {
+            places[vertex as usize] = place;
+        }
+        let position = |&p: &u32| {
+            let x = &mesh.vertices()[p as usize];
+            row(std::array::from_fn(|c| if c < D { x[c] } else { 0.0 }))
+        };
+        self.positions.extend(vertices.iter().map(position));
+        self.vertices.extend(vertices);
+        for four in cells.chunks(4) {
+            let own: [u32; 4] = std::array::from_fn(|l| four[l.min(four.len() - 1)]);
+            let mut corners = Corners::default();
+            for (l, &cell) in own.iter().enumerate() {
+                for (k, &p) in mesh.cell(cell as usize).iter().enumerate() {
+                    corners[k][l] = places[p as usize] as u16;
+                }
+            }
+            self.corners.push(corners);
+            self.cells.push(own);
+        }
+        self.starts.push(self.vertices.len());
+        self.fours.push(self.corners.len());
+        self.live.push((cells.len() - 1) % 4 + 1);
+    }
+
+    /// The number of groups.
+    pub(super) fn count(&self) -> usize {
+        self.live.len()
+    }
+
+    /// The vertices of a cell.
+    pub(super) fn corners_of(
+        &self,
+        group: usize,
+        four: usize,
+        cell: usize,
+    ) -> impl Iterator<Item = u32> {
+        let vertices = &self.vertices[self.starts[group]..self.starts[group + 1]];
+        let corners = self.corners[four].iter().take(self.corners_of_cell);
+        corners.map(move |corner| vertices[usize::from(corner[cell])])
+    }
+
+    /// The number of cells among four: 4 but for the last of a group.
+    pub(super) fn live(&self, group: usize, four: usize) -> usize {
+        if four + 1 == self.fours[group + 1] {
+            self.live[group]
+        } else {
+            4
+        }
+    }
+}
+
+/// The corners of a cell, increasing: by these neighbours in a group are near each other in memory.
+fn lowest<const D: usize>(mesh: &Mesh<D>, cell: u32) -> [u32; 4] {
+    let mut corners = [u32::MAX; 4];
+    corners[..=D].copy_from_slice(mesh.cell(cell as usize));
+    corners.sort_unstable();
+    corners
+}
+
+/// The vertices in compact parts of [`PART`] vertices, by halving along the longest extent.
+fn parts<const D: usize>(points: &[SVector<f64, D>]) -> Vec<u32> {
+    fn halve<const D: usize>(points: &[SVector<f64, D>], order: &mut [u32]) {
+        if order.len() <= PART {
+            return;
+        }
+        let (low, high) = bounding_box(order.iter().map(|&p| &points[p as usize]));
+        let axis = (high - low).imax();
+        // Whole parts before the cut.
+        let half = (order.len().div_ceil(PART) / 2) * PART;
+        let key = |p: u32| points[p as usize][axis];
+        order.select_nth_unstable_by(half, |&p, &q| {
+            key(p).total_cmp(&key(q)).then_with(|| p.cmp(&q))
+        });
+        let (before, behind) = order.split_at_mut(half);
+        halve(points, before);
+        halve(points, behind);
+    }
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    halve(points, &mut order);
+    order
+}

@@ -1,0 +1,234 @@
+//! The stiffness by elements beside the matrix that it stands for.
+
+use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
+use proptest::prelude::*;
+use stickslip_fem::{
+    Assembled, BlockMatrix, Elastic, GridDiagonal, Mesh, P1, Viscous, elasticity_by_cell,
+    element_stiffness_by_cell, viscosity_by_cell,
+};
+use stickslip_solvers::{
+    Basis, ElementOperator, IntoOperator, Link, Links, MassMatrix, Matrix, Operator,
+};
+
+/// A grid whose inner vertices are anywhere within a third of a cell, with its numbering shuffled.
+fn space<const D: usize>(cells: [usize; D], random: &[f64]) -> P1<D> {
+    let size = cells.map(|count| count as f64);
+    let grid = P1::grid(size, cells).expect("a grid");
+    let mut turn = random.iter().cycle();
+    let mut next = || *turn.next().expect("numbers");
+    let mesh = grid.mesh();
+    let count = mesh.vertex_count();
+    // A permutation by keys that random numbers make.
+    let mut order: Vec<usize> = (0..count).collect();
+    let keys: Vec<f64> = (0..count)
+        .map(|k| (next() * 97.0 + k as f64 * 0.618).fract())
+        .collect();
+    order.sort_by(|&i, &j| keys[i].total_cmp(&keys[j]));
+    let mut place = vec![0; count];
+    for (k, &i) in order.iter().enumerate() {
+        place[i] = k as u32;
+    }
+    let vertices = order.iter().map(|&i| {
+        let x = mesh.vertices()[i];
+        SVector::from_fn(|c, _| {
+            let inside = x[c] > 0.0 && x[c] < size[c];
+            x[c] + if inside { 0.3 * (next() - 0.5) } else { 0.0 }
+        })
+    });
+    let corners = mesh.cells().flatten().map(|&p| place[p as usize]);
+    P1::new(Mesh::new(vertices.collect(), corners.collect()).expect("a mesh"))
+}
+
+/// Vectors and numbers from a list of numbers, again and again.
+fn field<const D: usize>(count: usize, random: &[f64]) -> Vec<SVector<f64, D>> {
+    let at = |k: usize| random[k % random.len()] - 0.5 + 0.01 * (k as f64 * 0.7).sin();
+    (0..count)
+        .map(|i| SVector::from_fn(|c, _| at(D * i + c)))
+        .collect()
+}
+
+fn rock(random: &[f64], cell: usize) -> Elastic {
+    let at = |k: usize| random[(3 * cell + k) % random.len()];
+    Elastic {
+        young_modulus: 10_f64.powf(2.0 * at(0)),
+        poisson_ratio: 0.49 * at(1) - 0.1,
+    }
+}
+
+/// `(A x)_i` and the sum of the sizes of its terms.
+fn row<const D: usize>(
+    matrix: &BlockMatrix<D>,
+    i: usize,
+    x: &[SVector<f64, D>],
+) -> (SVector<f64, D>, f64) {
+    let row = matrix.outer_view(i).expect("a row");
+    let terms = row
+        .iter()
+        .map(|(j, block)| (block * x[j], block.amax() * x[j].amax()));
+    terms.fold((SVector::zeros(), 0.0), |(sum, size), (term, own)| {
+        (sum + term, size + own)
+    })
+}
+
+const ROUNDING: f64 = 1e-13;
+
+/// Products, rows and diagonals of an operator are those of a matrix.
+fn is_same<const D: usize>(
+    operator: &ElementOperator<D>,
+    matrix: &BlockMatrix<D>,
+    x: &[SVector<f64, D>],
+) -> Result<(), TestCaseError> {
+    let mut y = vec![SVector::repeat(1.0); x.len()];
+    operator.multiply_add(-2.0, x, &mut y);
+    let largest = (0..x.len())
+        .map(|i| row(matrix, i, x).1)
+        .fold(0.0, f64::max);
+    let mut square = 0.0;
+    for i in 0..x.len() {
+        let (expected, size) = row(matrix, i, x);
+        let found = (SVector::repeat(1.0) - y[i]) / 2.0;
+        prop_assert!((found - expected).amax() <= ROUNDING * size.max(1.0));
+        let single = operator.product_at(i, x);
+        prop_assert!((single - expected).amax() <= ROUNDING * size.max(1e-3 * largest));
+        let block = matrix.diagonal_block(i);
+        let error = (operator.diagonal_block(i) - block).amax();
+        prop_assert!(error <= ROUNDING * block.amax());
+        square += x[i].dot(&expected);
+    }
+    let error = (operator.quadratic(x) - square).abs();
+    prop_assert!(error <= 1e-12 * largest * x.len() as f64);
+    Ok(())
+}
+
+fn operators<const D: usize>(space: &P1<D>, random: &[f64]) -> (ElementOperator<D>, Assembled<D>) {
+    let elements = element_stiffness_by_cell(space, |_, cell| rock(random, cell)).expect("rock");
+    let matrix = elasticity_by_cell(space, |_, cell| rock(random, cell)).expect("rock");
+    (elements.into_operator(), matrix)
+}
+
+fn numbers() -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(0.0..1.0, 50..200)
+}
+
+proptest! {
+    #[test]
+    fn products_are_those_of_the_matrix(
+        random in numbers(),
+        (a, b, c) in (1..5_usize, 1..5_usize, 1..5_usize),
+    ) {
+        let plane = space([a, b], &random);
+        let (elements, matrix) = operators(&plane, &random);
+        is_same(&elements, &matrix, &field(plane.vertex_count(), &random))?;
+        let solid = space([a, b, c], &random);
+        let (elements, matrix) = operators(&solid, &random);
+        is_same(&elements, &matrix, &field(solid.vertex_count(), &random))?;
+    }
+
+    #[test]
+    fn viscosities_share_the_cells(random in numbers(), factor in 0.1..10.0) {
+        let solid = space([2, 2, 1], &random);
+        let viscous = |cell: usize| Viscous {
+            shear_viscosity: if cell % 3 == 0 { 0.0 } else { random[cell % random.len()] },
+            bulk_viscosity: random[(cell + 7) % random.len()],
+        };
+        let stiffness = element_stiffness_by_cell(&solid, |_, cell| rock(&random, cell))?;
+        let x = field(solid.vertex_count(), &random);
+        let viscosity = stiffness.viscosity_by_cell(viscous)?.into_operator();
+        let matrix = viscosity_by_cell(&solid, |_, cell| viscous(cell))?;
+        is_same(&viscosity, &matrix, &x)?;
+        let matrix = elasticity_by_cell(&solid, |_, cell| rock(&random, cell))?;
+        is_same(&(&stiffness * factor).into_operator(), &(&matrix * factor), &x)?;
+    }
+
+    /// Turned axes, jumps across a fault, and sums with matrices and masses.
+    #[test]
+    fn other_unknowns_and_sums_are_those_of_the_matrix(
+        random in numbers(),
+        angle in 0.0..3.0,
+        share in 0.0..0.9,
+        reversed in any::<bool>(),
+    ) {
+        let (sin, cos) = f64::sin_cos(angle);
+        let plane = space([3, 2], &random);
+        changed(&plane, &random, Matrix2::new(cos, -sin, sin, cos), (share, reversed))?;
+        let solid = space([2, 2, 1], &random);
+        let axes = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+        changed(&solid, &random, axes, (share, reversed))?;
+    }
+}
+
+fn changed<const D: usize>(
+    space: &P1<D>,
+    random: &[f64],
+    axes: SMatrix<f64, D, D>,
+    (share, reversed): (f64, bool),
+) -> Result<(), TestCaseError> {
+    let size = space.vertex_count();
+    let mut basis = Basis::none(size);
+    basis.axes.set(2, axes);
+    basis.axes.set(5, axes.transpose());
+    let link = Link {
+        reversed,
+        share,
+        ..Link::new(2, vec![7])
+    };
+    basis.links = Links::new([link, Link::new(3, vec![8])]);
+    let (mut elements, matrix) = operators(space, random);
+    let mut matrix = matrix.into_matrix();
+    let diagonal = |i: usize| SMatrix::from_diagonal_element(1.0 + random[i % random.len()]);
+    let starts = (0..=size as u32).collect();
+    let columns = (0..size as u32).collect();
+    let dashpots = BlockMatrix::new(
+        (size, size),
+        starts,
+        columns,
+        (0..size).map(diagonal).collect(),
+    );
+    prop_assert!(elements.change_basis(&basis) && matrix.change_basis(&basis));
+    let x = field(size, random);
+    is_same(&elements, &matrix, &x)?;
+    let own = ElementOperator::from(dashpots.clone());
+    let mass: MassMatrix<D> = dashpots.clone().into_mass();
+    let mut sum =
+        ElementOperator::combination_with(&[(1.0, &elements), (1.0, &own)], Some((1.0, &mass)));
+    sum.set_combination_with(&[(0.5, &elements), (3.0, &own)], Some((2.0, &mass)));
+    let expected =
+        BlockMatrix::combination_with(&[(0.5, &matrix), (3.0, &dashpots)], Some((2.0, &mass)));
+    is_same(&sum, &expected, &x)
+}
+
+/// A body of several groups of cells, and one whose number of cells is no multiple of four.
+#[test]
+fn groups_of_cells_add_up() -> Result<(), TestCaseError> {
+    let random: Vec<f64> = (0..101).map(|k| (f64::from(k) * 0.618).fract()).collect();
+    let solid = P1::grid([3.0, 2.0, 1.0], [24, 16, 9])?;
+    let (elements, matrix) = operators(&solid, &random);
+    is_same(&elements, &matrix, &field(solid.vertex_count(), &random))?;
+    let plane = P1::new(Mesh::<2>::grid([3.0, 1.0], [3, 1], GridDiagonal::Rising)?);
+    let (elements, matrix) = operators(&plane, &random);
+    is_same(&elements, &matrix, &field(plane.vertex_count(), &random))?;
+    Ok(())
+}
+
+/// A mesh without order: nothing depends on the number of threads.
+#[cfg(feature = "rayon")]
+#[test]
+fn bits_are_those_of_one_thread() -> Result<(), Box<dyn std::error::Error>> {
+    let random: Vec<f64> = (0..997).map(|k| (f64::from(k) * 0.618).fract()).collect();
+    let solid = space([20, 20, 30], &random);
+    let (elements, _) = operators(&solid, &random);
+    let x = field(solid.vertex_count(), &random);
+    let product = |threads: usize| -> Result<Vec<u64>, rayon::ThreadPoolBuildError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()?;
+        let mut y = vec![SVector::zeros(); x.len()];
+        pool.install(|| elements.multiply_add(1.0, &x, &mut y));
+        Ok(y.iter().flatten().map(|y| y.to_bits()).collect())
+    };
+    let alone = product(1)?;
+    for threads in [2, 4] {
+        assert!(product(threads)? == alone, "{threads}");
+    }
+    Ok(())
+}
