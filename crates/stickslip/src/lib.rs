@@ -142,7 +142,7 @@ pub use stickslip_time as time;
 #[cfg(any(feature = "tnnmg", feature = "condensed"))]
 pub use stickslip_solvers::Cholesky;
 #[cfg(feature = "fem")]
-pub use stickslip_solvers::{BlockGaussSeidel, Diagonal};
+pub use stickslip_solvers::{BlockGaussSeidel, Diagonal, ElementOperator};
 #[cfg(feature = "condensed")]
 pub use stickslip_solvers::{Condensed, DenseNewton, Symmetric};
 #[cfg(feature = "tnnmg")]

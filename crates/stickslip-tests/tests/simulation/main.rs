@@ -16,6 +16,7 @@ mod costs;
 mod coupling;
 mod custom_laws;
 mod dense;
+mod elements;
 mod energy;
 mod error_control;
 mod explicit;

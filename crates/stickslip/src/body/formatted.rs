@@ -156,6 +156,12 @@ impl<Op: Operator<C>, const C: usize> Matrices<C> for Formatted<Op, C> {
         solver: AnySolver,
         implicit: bool,
     ) -> Result<(Arc<dyn Matrices<C>>, Box<dyn Body<C>>), SceneError> {
+        if implicit && !Op::has_rows() {
+            return Err(SceneError::unsupported(
+                SceneError::IMPLICIT,
+                "the rows of the stiffness: assemble it by `elasticity`, or take CentralDifferences",
+            ));
+        }
         self.equilibrium = None;
         let matrices = Arc::new(*self);
         let body = OperatorBody::new(Arc::clone(&matrices), solver, implicit)?;

@@ -9,7 +9,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Adds inertia with the mass matrix `M` \[kg\], stored in the operator's [format of a mass](Operator::Mass): for
     /// finite elements one number per pair of vertices.
     #[must_use]
-    pub fn with_mass(mut self, mass: impl IntoOperator<C, Operator = Op>) -> Self {
+    pub fn with_mass(mut self, mass: impl IntoOperator<C, Operator: Into<Op>>) -> Self {
         self.repeat(MASS, self.mass.is_some());
         let mass = self.taken(MASS, mass);
         self.mass = mass.map(Operator::into_mass);
@@ -22,7 +22,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// lag each that couples vertices, see [`CentralDifferences`](crate::CentralDifferences): give those one by one.
     #[must_use]
     #[doc(alias("radiation damping", "Kelvin-Voigt", "Rayleigh damping"))]
-    pub fn with_viscosity(mut self, viscosity: impl IntoOperator<C, Operator = Op>) -> Self {
+    pub fn with_viscosity(mut self, viscosity: impl IntoOperator<C, Operator: Into<Op>>) -> Self {
         let viscosity = self.taken(VISCOSITY, viscosity);
         self.viscosity.extend(viscosity);
         self
@@ -47,13 +47,13 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     fn taken(
         &mut self,
         what: &'static str,
-        matrix: impl IntoOperator<C, Operator = Op>,
+        matrix: impl IntoOperator<C, Operator: Into<Op>>,
     ) -> Option<Op> {
         let mesh = matrix.mesh();
         self.conditions
             .assembled
             .extend(mesh.map(|mesh| (what, mesh)));
-        let operator = matrix.into_operator();
+        let operator: Op = matrix.into_operator().into();
         let checked = check_format(what, &operator);
         match checked.and_then(|()| check_symmetry(what, &operator)) {
             Ok(()) => Some(operator),

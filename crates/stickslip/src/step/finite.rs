@@ -1,6 +1,7 @@
 //! Fields that must be finite.
 
 use nalgebra::SVector;
+use stickslip_solvers::sum_parts;
 
 use crate::StepError;
 
@@ -10,13 +11,16 @@ pub(crate) fn check_finite<const C: usize>(
     field: &[SVector<f64, C>],
 ) -> Result<(), StepError> {
     // One pass without a branch; the vertex is looked for only if there is one.
-    let mut sound = true;
-    for vector in field {
-        for c in 0..C {
-            sound &= vector[c].is_finite();
+    let unsound = sum_parts(0..field.len(), (), &|part, ()| {
+        let mut sound = true;
+        for vector in &field[part] {
+            for c in 0..C {
+                sound &= vector[c].is_finite();
+            }
         }
-    }
-    if sound {
+        f64::from(u8::from(!sound))
+    });
+    if unsound == 0.0 {
         return Ok(());
     }
     for (vertex, vector) in field.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
+use stickslip_solvers::{Divide, for_parts};
 use stickslip_time::UpdateFormula;
 
 use super::{Problem, Span, Workspace, check_finite};
@@ -58,7 +59,6 @@ impl<const C: usize> Workspace<C> {
         time: f64,
     ) -> Result<(), StepError> {
         predict(formula, start, &mut self.end);
-        self.end.velocity.copy_from_slice(&start.velocity);
         let prescribed = p.constraints.prescribe(time, &mut self.end.velocity);
         agreed(&p.ranks, prescribed)?;
         let fixed = &p.constraints.fixed;
@@ -134,13 +134,12 @@ impl<const C: usize> Workspace<C> {
             }
         }
         let c_u = formula.displacement.new_velocity;
-        for (u, v) in end.displacement.iter_mut().zip(&end.velocity) {
-            *u += v * c_u;
+        // In an explicit scheme the displacement is known.
+        if c_u != 0.0 {
+            add_multiple(&mut end.displacement, c_u, &end.velocity);
         }
         let c_a = formula.acceleration.new_velocity;
-        for (a, v) in end.acceleration.iter_mut().zip(&end.velocity) {
-            *a += v * c_a;
-        }
+        add_multiple(&mut end.acceleration, c_a, &end.velocity);
         self.contacts
             .close_gaps(end, formula.acceleration.new_velocity > 0.0);
         self.contacts.accept(&mut end.contacts);
@@ -206,24 +205,56 @@ fn copy<'a, const C: usize>(
     memory.get_or_insert_with(|| Box::new(from.clone()))
 }
 
-/// `u^` and `a^`; no acceleration without mass.
+/// `u^` and `a^`, and the velocity of the start; no acceleration without mass.
 fn predict<const C: usize>(formula: &UpdateFormula, start: &StepState<C>, end: &mut StepState<C>) {
     let (to_u, to_a) = (&formula.displacement, &formula.acceleration);
     let (u, v, a) = (&start.displacement, &start.velocity, &start.acceleration);
-    for ((displacement, u), v) in end.displacement.iter_mut().zip(u).zip(v) {
-        *displacement = u * to_u.displacement + v * to_u.velocity;
-    }
-    for (i, a) in a.iter().enumerate() {
-        end.displacement[i] += a * to_u.acceleration;
-        end.acceleration[i] =
-            u[i] * to_a.displacement + v[i] * to_a.velocity + a * to_a.acceleration;
-    }
+    let fields = (
+        &mut end.displacement[..],
+        (&mut end.velocity[..], Part(&mut end.acceleration[..])),
+    );
+    for_parts(
+        0..u.len(),
+        fields,
+        &|part, (new_u, (new_v, Part(new_a)))| {
+            let (u, v) = (&u[part.clone()], &v[part.clone()]);
+            for (((new_u, new_v), u), v) in new_u.iter_mut().zip(&mut *new_v).zip(u).zip(v) {
+                *new_u = u * to_u.displacement + v * to_u.velocity;
+                *new_v = *v;
+            }
+            // In the cache by now.
+            let Some(a) = a.get(part) else { return };
+            for (i, (new_a, a)) in new_a.iter_mut().zip(a).enumerate() {
+                new_u[i] += a * to_u.acceleration;
+                *new_a = u[i] * to_a.displacement + v[i] * to_a.velocity + a * to_a.acceleration;
+            }
+        },
+    );
     for (i, w) in start.algorithmic.iter().enumerate() {
         end.displacement[i] += w * to_u.algorithmic;
         if let Some(acceleration) = end.acceleration.get_mut(i) {
             *acceleration += w * to_a.algorithmic;
         }
     }
+}
+
+/// A field that may be empty.
+struct Part<'a, T>(&'a mut [T]);
+
+impl<T: Send> Divide for Part<'_, T> {
+    fn divide(self, vertices: usize, _: usize) -> (Self, Self) {
+        let (before, behind) = self.0.split_at_mut(vertices.min(self.0.len()));
+        (Self(before), Self(behind))
+    }
+}
+
+/// `to += factor v`; nothing of an empty field.
+fn add_multiple<const C: usize>(to: &mut [SVector<f64, C>], factor: f64, v: &[SVector<f64, C>]) {
+    for_parts(0..to.len(), to, &|part, to| {
+        for (to, v) in to.iter_mut().zip(&v[part]) {
+            *to += v * factor;
+        }
+    });
 }
 
 /// Adds the distance from the displacement of `start` to that of `end` to the slip.
