@@ -41,6 +41,9 @@ mod documents {
     #[doc = include_str!("../docs/scenes.md")]
     struct Scenes;
 
+    #[doc = include_str!("../docs/surface-mesh.md")]
+    struct SurfaceMesh;
+
     #[doc = include_str!("../docs/theory.md")]
     struct Theory;
 }

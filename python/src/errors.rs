@@ -9,7 +9,7 @@ use hints::{RTOL, hint_of_scene, hint_of_step, worded};
 
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use stickslip::bie::KernelError;
+use stickslip::bie::{KernelError, SegmentsError, SurfaceError};
 use stickslip::fem::ReadError;
 use stickslip::friction::FrictionViolation;
 use stickslip::lab::LabError;
@@ -218,6 +218,31 @@ pub(crate) fn kernel(py: Python<'_>, error: &KernelError) -> PyErr {
             ("KernelError".to_owned(), fields),
         )
     })())
+}
+
+/// The exception of segments that make no fault.
+pub(crate) fn segments(py: Python<'_>, error: &SegmentsError) -> PyErr {
+    match error {
+        SegmentsError::Value(cause) => kernel(py, cause),
+        _ => fault(py, error, name(error)),
+    }
+}
+
+/// The exception of triangles that make no fault, or of a file of them that cannot be read.
+pub(crate) fn surface(py: Python<'_>, error: &SurfaceError) -> PyErr {
+    match error {
+        SurfaceError::Value(cause) => kernel(py, cause),
+        SurfaceError::File { .. } => {
+            let fields = (name(error), Attributes::new());
+            made(exception(py, "MeshError", error.to_string(), fields))
+        }
+        _ => fault(py, error, name(error)),
+    }
+}
+
+fn fault(py: Python<'_>, error: &impl std::fmt::Display, kind: String) -> PyErr {
+    let fields = (kind, Attributes::new());
+    made(exception(py, "FaultError", error.to_string(), fields))
 }
 
 /// The exception of a file that is no mesh.

@@ -27,6 +27,7 @@ mod _stickslip {
     #[pymodule_export]
     use super::faults::{
         FaultRun, FaultSimulation, FaultSystem, LineFault, PlaneFault, SeasFiles, SeasTable,
+        SegmentFault, Segments, SurfaceFault, Triangles,
     };
     #[pymodule_export]
     use super::fields::{

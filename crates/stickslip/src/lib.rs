@@ -49,7 +49,7 @@
 //! | `bie` | no | faults by boundary integrals, in half and whole spaces: lines of any dip, polylines, and planes in 3D (`stickslip::bie`), and with it realfft |
 //! | `gmsh` | no | meshes of Gmsh with the names of their groups |
 //! | `csv` | no | parameter samples from tables, and with it csv |
-//! | `vtk` | no | files of the body and its contacts for ParaView |
+//! | `vtk` | no | files of the body and its contacts, and of faults by boundary integrals, for ParaView |
 //! | `serde` | no | states and recorders by serde |
 //! | `checkpoint` | no | checkpoint files (`Checkpoint`) and files of reduced bodies, and with it `serde`, postcard and xxhash-rust |
 //! | `rayon` | no | assembly, solvers and contacts of large bodies, products and friction of large planes of cells, on rayon's thread pool |

@@ -1,7 +1,8 @@
 //! A planar fault: cells, rock, and the operators of its motion.
 
 use stickslip::bie::{
-    Cells, DippingFault, Fault, FaultCells, FaultGeometry, FaultSystem, PlaneFault, Rectangles,
+    Cells, DippingFault, Fault, FaultCells, FaultGeometry, FaultSystem, Mode, PlaneFault,
+    Rectangles, SegmentFault, SurfaceFault,
 };
 use stickslip::integrate::Stepper;
 use stickslip::nalgebra::Vector2;
@@ -27,6 +28,12 @@ pub(super) enum Geometry {
     Planes(FaultSystem<1>),
     /// Several planes with two components of slip.
     FreePlanes(FaultSystem<2>),
+    /// Polylines.
+    Segments(SegmentFault),
+    /// Triangles with given rakes.
+    Surface(SurfaceFault<1>),
+    /// Triangles with two components of slip.
+    FreeSurface(SurfaceFault<2>),
 }
 
 /// A motion, or the reason why there is none.
@@ -42,6 +49,9 @@ impl Geometry {
             Self::Free(fault) => fault.cells().count(),
             Self::Planes(system) => system.vertex_count(),
             Self::FreePlanes(system) => system.vertex_count(),
+            Self::Segments(fault) => fault.cells().count(),
+            Self::Surface(fault) => fault.cells().count(),
+            Self::FreeSurface(fault) => fault.cells().count(),
         }
     }
 
@@ -50,6 +60,7 @@ impl Geometry {
         let shape = match self {
             Self::Line(_) | Self::Dipping(_) => None,
             Self::Planes(_) | Self::FreePlanes(_) => None,
+            Self::Segments(_) | Self::Surface(_) | Self::FreeSurface(_) => None,
             Self::Plane(fault) => Some(fault.cells()),
             Self::Free(fault) => Some(fault.cells()),
         };
@@ -80,12 +91,14 @@ impl Geometry {
                     let planes = system.planes().iter();
                     Ground::Planes(planes.map(|fault| plane(fault.cells())).collect())
                 }
+                Self::Segments(_) => Ground::Apart("segments"),
+                Self::Surface(_) | Self::FreeSurface(_) => Ground::Apart("triangles"),
             },
             layout: self.layout(),
         }
     }
 
-    /// The centres of cells \[m\]: positions on a line and 0, or along strike and down dip.
+    /// The centres of cells \[m\]: positions on a line and 0, x and z, or along strike and down dip.
     pub(super) fn centers(&self) -> Vec<Vector2<f64>> {
         let line = |cells: &Cells| cells.map(|x| Vector2::new(x, 0.0));
         match self {
@@ -93,15 +106,21 @@ impl Geometry {
             Self::Dipping(fault) => line(fault.cells()),
             Self::Plane(fault) => fault.cells().map(Vector2::from),
             Self::Free(fault) => fault.cells().map(Vector2::from),
+            Self::Segments(fault) => fault.cells().map(Vector2::from),
             // Those are in space.
-            Self::Planes(_) | Self::FreePlanes(_) => Vec::new(),
+            Self::Planes(_) | Self::FreePlanes(_) | Self::Surface(_) | Self::FreeSurface(_) => {
+                Vec::new()
+            }
         }
     }
 
     /// The directions of the components of slip on a plane, along strike and up dip.
     pub(super) fn directions(&self) -> Vec<[f64; 2]> {
         match self {
-            Self::Line(_) | Self::Dipping(_) => vec![[1.0, 0.0]],
+            Self::Line(_) | Self::Dipping(_) | Self::Segments(_) | Self::Surface(_) => {
+                vec![[1.0, 0.0]]
+            }
+            Self::FreeSurface(_) => vec![[1.0, 0.0], [0.0, 1.0]],
             Self::Plane(fault) => fault.directions().to_vec(),
             Self::Free(fault) => fault.directions().to_vec(),
             Self::Planes(system) => of_first(system.planes()),
@@ -127,6 +146,38 @@ pub(super) fn system<const C: usize>(
         .with_load_history(system.back_slip(&loading.plate_rate)?)
         .with_normal_stress_change(system.normal_stiffness(), loading.plate_rate.clone());
     moving(scene, loading, friction, FaultGeometry::cells(system))
+}
+
+/// The motion of polylines.
+pub(super) fn segments(
+    fault: &SegmentFault,
+    loading: Loading<1>,
+    friction: CellFriction<1>,
+) -> Built<1> {
+    let mut scene = Scene::new(fault.stiffness())
+        .with_viscosity(fault.radiation_damping())
+        .with_load_history(fault.back_slip(&loading.plate_rate)?);
+    if fault.mode() != Mode::Antiplane {
+        let change = fault.normal_stiffness();
+        scene = scene.with_normal_stress_change(change, loading.plate_rate.clone());
+    }
+    moving(scene, loading, friction, FaultGeometry::cells(fault))
+}
+
+/// That of triangles.
+pub(super) fn surface<const C: usize>(
+    fault: &SurfaceFault<C>,
+    loading: Loading<C>,
+    friction: CellFriction<C>,
+) -> Built<C> {
+    let mut scene = Scene::new(fault.stiffness())
+        .with_viscosity(fault.radiation_damping())
+        .with_load_history(fault.back_slip(&loading.plate_rate)?);
+    let change = fault.normal_stiffness();
+    if !change.is_zero() {
+        scene = scene.with_normal_stress_change(change, loading.plate_rate.clone());
+    }
+    moving(scene, loading, friction, FaultGeometry::cells(fault))
 }
 
 /// The motion of a line by an explicit Runge-Kutta method.

@@ -1,4 +1,4 @@
-//! Planar faults by boundary integrals.
+//! Faults by boundary integrals.
 
 mod advance;
 mod callback;
@@ -13,11 +13,16 @@ mod loading;
 mod per_cell;
 mod plane;
 mod record;
+mod rows;
 mod samples;
 mod scene;
 mod seas;
 mod seas_table;
+mod segment_fault;
+mod segments;
+mod surface_fault;
 mod system;
+mod triangles;
 
 pub(crate) use cycle::FaultSimulation;
 pub(crate) use line::LineFault;
@@ -26,4 +31,8 @@ pub(crate) use plane::PlaneFault;
 pub(crate) use record::FaultRun;
 pub(crate) use seas::SeasFiles;
 pub(crate) use seas_table::SeasTable;
+pub(crate) use segment_fault::SegmentFault;
+pub(crate) use segments::Segments;
+pub(crate) use surface_fault::SurfaceFault;
 pub(crate) use system::FaultSystem;
+pub(crate) use triangles::Triangles;

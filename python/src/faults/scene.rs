@@ -10,7 +10,7 @@ use stickslip::state::{LogTheta, Theta};
 use super::cycle::{FaultSimulation, Motion};
 use super::friction::CellFriction;
 use super::function::CellFunction;
-use super::geometry::{Built, Geometry, dipping, line, plane, system};
+use super::geometry::{Built, Geometry, dipping, line, plane, segments, surface, system};
 use super::laws::Given;
 use super::loading::{Directed, Loading};
 use crate::arguments::positive;
@@ -54,6 +54,15 @@ pub(super) fn simulation(
         }
         Geometry::FreePlanes(planes) => {
             Motion::Two(built(at, given, |l, f| system(planes, l, f))?, None)
+        }
+        Geometry::Segments(fault) => {
+            Motion::One(built(at, given, |l, f| segments(fault, l, f))?, None)
+        }
+        Geometry::Surface(fault) => {
+            Motion::One(built(at, given, |l, f| surface(fault, l, f))?, None)
+        }
+        Geometry::FreeSurface(fault) => {
+            Motion::Two(built(at, given, |l, f| surface(fault, l, f))?, None)
         }
     };
     Ok(FaultSimulation::new(

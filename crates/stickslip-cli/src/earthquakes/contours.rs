@@ -101,7 +101,7 @@ fn fronts(cells: &Rectangles, event: &Rupture, metres: f64) -> Vec<Front> {
 }
 
 /// The least of 1, 2 or 5 times a power of ten that is in `end` at most so many times.
-fn interval(end: f64) -> f64 {
+pub(super) fn interval(end: f64) -> f64 {
     let least = end / (MOST as f64 + 1.0);
     let power = 10_f64.powf(least.log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);

@@ -29,13 +29,14 @@ pub(super) fn shade(share: f64) -> RGBColor {
     color((LEVELS * share.clamp(0.0, 1.0)).round() as i32)
 }
 
-/// Draws the colours beside an axis.
+/// Draws the colours beside an axis, logarithmic or linear.
 pub(super) fn draw<DB: DrawingBackend>(
     area: &Area<DB>,
     name: &str,
     range: (f64, f64),
+    logarithmic: bool,
 ) -> Drawn<DB> {
-    let axis = Axis::new([range.0, range.1].into_iter(), true, true);
+    let axis = Axis::new([range.0, range.1].into_iter(), logarithmic, true);
     let mut chart = ChartBuilder::on(area)
         .margin(24 * SCALE)
         .margin_bottom((24 + 84) * SCALE)

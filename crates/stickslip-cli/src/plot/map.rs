@@ -56,7 +56,7 @@ impl Draw for Map<'_> {
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, _pixels: bool) -> Drawn<DB> {
         let (field, beside) = area.split_horizontally(area.dim_in_pixel().0 - key::WIDTH * SCALE);
         self.draw_field(&field)?;
-        key::draw(&beside, self.names[2], self.range)
+        key::draw(&beside, self.names[2], self.range, true)
     }
 }
 

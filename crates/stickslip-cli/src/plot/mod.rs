@@ -8,6 +8,8 @@ mod label;
 mod legend;
 mod map;
 mod panel;
+mod patch_sheet;
+mod patches;
 mod scatter;
 mod sheet;
 mod thinned;
@@ -20,6 +22,8 @@ use plotters::prelude::*;
 
 pub use map::Map;
 pub use panel::Panel;
+pub use patch_sheet::PatchSheet;
+pub use patches::{Colors, Patches};
 pub use plotters::style::RGBColor;
 pub use scatter::Scatter;
 pub use sheet::Sheet;

@@ -65,7 +65,7 @@ impl Draw for Scatter<'_> {
             };
             Some(Circle::new(place, 9 * SCALE, style))
         }))?;
-        key::draw(&beside, self.names[2], range)
+        key::draw(&beside, self.names[2], range, true)
     }
 }
 

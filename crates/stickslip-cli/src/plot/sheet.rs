@@ -73,7 +73,7 @@ impl Draw for Sheet<'_> {
             map.draw_field(&below)?;
         }
         match self.maps.first() {
-            Some((_, map)) => key::draw(&beside, map.names[2], map.range),
+            Some((_, map)) => key::draw(&beside, map.names[2], map.range, true),
             None => {
                 let middle = (LEFT * SCALE as i32, 40 * SCALE as i32);
                 area.draw_text(&self.empty, &letters(28).into_text_style(area), middle)

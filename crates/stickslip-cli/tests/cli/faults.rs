@@ -97,8 +97,20 @@ fn triangles_are_faults_too() -> Outcome {
     let out = folder("faults-triangles")?;
     let file = out.join("thrust.msh");
     fs::write(&file, thrust())?;
-    let line = format!("--faults {} --groups thrust --years 20", file.display());
+    let line = format!(
+        "--faults {} --groups thrust --years 20 --vtu-every 10",
+        file.display()
+    );
     let found = run(&line, &out)??;
+    let files = [
+        "slip_rate_surface.png",
+        "slip_per_event.svg",
+        "fault.pvd",
+        "fault_0000.vtu",
+    ];
+    for name in files {
+        assert!(out.join(name).is_file(), "{name}");
+    }
     assert_eq!((&found["cells"], &found["faults"]), (&72.into(), &1.into()));
     // Slip in a strengthening or stable part is that of the plate at most, and none is ahead of it without an event.
     let events = found["event_times_years"].as_array().ok_or("no list")?;

@@ -31,5 +31,7 @@ pub use table::{Entry, Table};
 pub use trace_memory::TraceMemory;
 pub use trace_writer::TraceWriter;
 pub use tracing::{Quantity, Tracing};
+#[cfg(all(feature = "vtk", feature = "bie"))]
+pub use vtk::VtkFaultSeries;
 #[cfg(feature = "vtk")]
 pub use vtk::VtkSeries;

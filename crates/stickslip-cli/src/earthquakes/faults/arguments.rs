@@ -30,4 +30,7 @@ pub struct FaultFile {
     /// --faults: the slip rate beyond the cells [m/s], 1e-9 by default
     #[arg(long, value_name = "M/S", requires = "faults", value_parser = positive)]
     pub plate_rate: Option<f64>,
+    /// --faults: write every K-th step as VTU files of the cells for ParaView, 0 for none
+    #[arg(long, value_name = "K", requires = "faults", default_value_t = 0)]
+    pub vtu_every: usize,
 }

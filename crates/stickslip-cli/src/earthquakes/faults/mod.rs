@@ -4,18 +4,19 @@ mod arguments;
 mod friction;
 mod layout;
 mod record;
+mod surface;
 
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::json;
 use stickslip::bie::FaultGeometry;
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::bp1::{MEDIUM, PLATE_RATE};
-use stickslip::record::EventCatalogue;
+use stickslip::record::{EventCatalogue, VtkFaultSeries};
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{BoundaryPart, Contact, RungeKutta, Scene};
+use stickslip::{BoundaryPart, Contact, RungeKutta, Scene, SceneError, Snapshot};
 
 pub use arguments::FaultFile;
 
@@ -28,43 +29,55 @@ use record::Record;
 /// The slip rate at which an event begins [m/s]; it ends at a tenth of it.
 const EVENT: f64 = 1e-2;
 
-/// The files of a run.
-const FILES: [&str; 5] = [
-    "events.csv",
-    "history.csv",
-    "cells.csv",
-    "summary.json",
-    "slip_rate_map.png",
-];
+/// The files of a run, and its pictures on lines and on surfaces.
+const FILES: [&str; 4] = ["events.csv", "history.csv", "cells.csv", "summary.json"];
+const OF_LINES: [&str; 1] = ["slip_rate_map.png"];
+const OF_SURFACES: [&str; 2] = ["slip_rate_surface.png", "slip_per_event.png"];
+
+/// The begin of the names of VTU files.
+const SERIES: &str = "fault";
 
 /// Takes the steps, and writes and prints the results.
 pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<(), Failed> {
     if layout::has_triangles(path) {
         let fault = layout::triangles(arguments, path)?;
-        return run_on(arguments, &fault, &Layout::of_triangles(fault.cells()));
+        let cells = Layout::of_triangles(fault.cells());
+        let record = Record::of_surface(&cells, fault.cells(), EVENT);
+        return run_on(arguments, &fault, &cells, record, |at, base| {
+            VtkFaultSeries::of_surface(at, 0, &fault, base)
+        });
     }
     let fault = layout::segments(arguments, path)?;
-    run_on(arguments, &fault, &Layout::of_segments(fault.cells()))
+    let cells = Layout::of_segments(fault.cells());
+    let record = Record::of_lines(&cells, arguments.end(), EVENT);
+    run_on(arguments, &fault, &cells, record, |at, base| {
+        VtkFaultSeries::of_segments(at, 0, &fault, base)
+    })
 }
 
 fn run_on(
     arguments: &Arguments,
     fault: &impl FaultGeometry<1>,
     cells: &Layout,
+    mut record: Record<'_>,
+    series: impl FnOnce(&Snapshot<'_, 1>, PathBuf) -> Result<VtkFaultSeries, SceneError>,
 ) -> Result<(), Failed> {
     let settings = &arguments.fault_file;
     let strengths = Strengths::new(settings, cells)?;
     say!("{}", cells.told)?;
     let rate = settings.plate_rate.unwrap_or(PLATE_RATE);
     let mut motion = RungeKutta::new(scene(fault, &strengths, rate)?)?;
-    // A surface has no line for a picture.
-    let files = if cells.lines.is_empty() {
-        &FILES[..4]
+    let pictures: &[&str] = if cells.lines.is_empty() {
+        &OF_SURFACES
     } else {
-        &FILES
+        &OF_LINES
     };
-    let output = arguments.files.create("earthquakes", files)?;
-    let mut record = Record::new(cells, arguments.end(), EVENT);
+    let files = [&FILES[..], pictures].concat();
+    let output = arguments.files.create("earthquakes", &files)?;
+    let mut series = match settings.vtu_every {
+        0 => None,
+        every => Some(series(&motion.snapshot(), output.path(SERIES))?.every(every)?),
+    };
     let limits = [EVENT, 0.1 * EVENT];
     let mut catalogue =
         EventCatalogue::new(&motion.snapshot(), 0, limits, MEDIUM.shear_modulus, 100)?;
@@ -76,14 +89,18 @@ fn run_on(
             let (years, rate) = (at.time / YEAR, at.max_slip_rate());
             format!("{years:.2} years, step {}, {rate:.1e} m/s", at.step)
         });
-        ControlFlow::<()>::Continue(())
+        match &mut series {
+            Some(series) => series.record(&at),
+            None => ControlFlow::Continue(()),
+        }
     })?;
     drop(progress);
+    series.map_or(Ok(()), VtkFaultSeries::finish)?;
     let seconds = clock.elapsed().as_secs_f64();
     // One under way at the end has no arrest.
     let under_way = catalogue.under_way(&motion.snapshot());
     output.events(FILES[0], catalogue.events().iter().chain(&under_way))?;
-    record.write(&output, cells, &strengths, [FILES[1], FILES[2], FILES[4]])?;
+    record.write(&output, cells, &strengths, [FILES[1], FILES[2]])?;
     let summary = json!({
         "faults": cells.fault_count(),
         "cells": cells.count(),
@@ -106,8 +123,9 @@ fn run_on(
         cells.count(),
         record.steps(),
         report.rejected + report.failed,
-        output.told(files)
-    )
+        output.told(&files)
+    )?;
+    record.draw(&output, pictures)
 }
 
 /// The scene of faults that start at the plate rate, under the least ratio of shear to normal stress at which a cell slides

@@ -1,19 +1,23 @@
 //! The record of faults of a file.
 
 use stickslip::Snapshot;
+use stickslip::bie::Triangles;
 
 use super::super::events::Events;
 use super::super::space_time::SpaceTime;
 use super::super::{Failed, YEAR, pictures};
 use super::friction::Strengths;
 use super::layout::Layout;
+use super::surface::SurfaceRecord;
 use crate::output::{Output, number};
 
 /// What is seen of a run.
-pub(super) struct Record {
+pub(super) struct Record<'a> {
     events: Events,
-    /// Slip rates along each fault.
+    /// Slip rates along each polyline.
     rates: Vec<SpaceTime>,
+    /// What pictures of triangles need.
+    surface: Option<SurfaceRecord<'a>>,
     /// Time, the largest slip rate, and the least and the largest normal stress.
     rows: Vec<[f64; 4]>,
     /// The slip of each cell so far \[m\].
@@ -21,16 +25,25 @@ pub(super) struct Record {
     steps: usize,
 }
 
-impl Record {
-    /// A record of events from a slip rate on [m/s], until a time \[s\].
-    pub(super) fn new(cells: &Layout, end: f64, event: f64) -> Self {
+impl<'a> Record<'a> {
+    /// A record on polylines, of events from a slip rate on [m/s], until a time \[s\].
+    pub(super) fn of_lines(cells: &Layout, end: f64, event: f64) -> Self {
         let lines = cells.lines.iter().map(|line| SpaceTime::new(line, end));
         Self {
             events: Events::new(event, cells.count()),
             rates: lines.collect(),
+            surface: None,
             rows: Vec::new(),
             slip: vec![0.0; cells.count()],
             steps: 0,
+        }
+    }
+
+    /// A record on triangles, of events from a slip rate on [m/s].
+    pub(super) fn of_surface(cells: &Layout, triangles: &'a Triangles, event: f64) -> Self {
+        Self {
+            surface: Some(SurfaceRecord::new(triangles, event)),
+            ..Self::of_lines(cells, 0.0, event)
         }
     }
 
@@ -40,6 +53,9 @@ impl Record {
         self.events.record(at.time, &contact);
         for rates in &mut self.rates {
             rates.record(at.time, &contact);
+        }
+        if let Some(surface) = &mut self.surface {
+            surface.see(at);
         }
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for k in 0..contact.len() {
@@ -72,13 +88,13 @@ impl Record {
         self.steps
     }
 
-    /// Writes the history and the cells, and draws slip rates.
+    /// Writes the history and the cells.
     pub(super) fn write(
         &self,
         output: &Output,
         cells: &Layout,
         strengths: &Strengths,
-        [history, cells_file, map]: [&str; 3],
+        [history, cells_file]: [&str; 2],
     ) -> Result<(), Failed> {
         let columns = "time,max_slip_rate,least_normal_stress,largest_normal_stress";
         output.table(
@@ -105,16 +121,16 @@ impl Record {
             numbers.map(number)
         });
         let columns = "fault,x,y,z,size,downward,bend,a,b,slip_distance,normal_stress,slip";
-        output.table(cells_file, columns, rows)?;
-        if self.rates.is_empty() {
-            return Ok(());
+        output.table(cells_file, columns, rows)
+    }
+
+    /// Draws slip rates, and of triangles the slip of events.
+    pub(super) fn draw(self, output: &Output, names: &[&str]) -> Result<(), Failed> {
+        match (self.surface, names) {
+            (Some(surface), [rates, slip]) => surface.draw(&output.path(rates), &output.path(slip)),
+            (None, [map]) => draw_lines(&self.rates, output, map),
+            _ => Ok(()),
         }
-        let names: Vec<String> = (0..self.rates.len())
-            .map(|fault| format!("fault {fault}: distance [km]"))
-            .collect();
-        let lines: Vec<(&str, &SpaceTime)> =
-            names.iter().map(String::as_str).zip(&self.rates).collect();
-        pictures::lines(&output.path(map), &lines)
     }
 
     /// Prints the events.
@@ -131,4 +147,13 @@ impl Record {
         }
         Ok(())
     }
+}
+
+/// Draws slip rates along each polyline.
+fn draw_lines(rates: &[SpaceTime], output: &Output, map: &str) -> Result<(), Failed> {
+    let names: Vec<String> = (0..rates.len())
+        .map(|fault| format!("fault {fault}: distance [km]"))
+        .collect();
+    let lines: Vec<(&str, &SpaceTime)> = names.iter().map(String::as_str).zip(rates).collect();
+    pictures::lines(&output.path(map), &lines)
 }

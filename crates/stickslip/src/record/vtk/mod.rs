@@ -1,6 +1,8 @@
 //! Files of a body and its contacts for ParaView and similar viewers.
 
 mod collection;
+#[cfg(feature = "bie")]
+mod fault;
 mod file;
 mod grid;
 mod vtu;
@@ -11,6 +13,9 @@ use std::path::PathBuf;
 
 use nalgebra::SVector;
 use stickslip_fem::{Elastic, P1, Trace, stress_by_cell};
+
+#[cfg(feature = "bie")]
+pub use fault::VtkFaultSeries;
 
 use super::check::{check_index, require};
 use collection::Collection;

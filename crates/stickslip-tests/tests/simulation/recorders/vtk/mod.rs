@@ -1,5 +1,6 @@
 //! Files for ParaView, read back.
 
+mod fault;
 mod kinds;
 mod reader;
 
