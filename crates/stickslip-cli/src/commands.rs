@@ -7,8 +7,8 @@ use clap::{Parser, Subcommand};
 use crate::cli::{self, Problem, Refusal};
 use crate::output::Files;
 use crate::{
-    earthquakes, figures, fit, gmsh, injection, layer, rupture, slider, slider3d, spring_slider,
-    sweep,
+    earthquakes, figures, fit, gmsh, injection, layer, rupture, rupture3d, slider, slider3d,
+    spring_slider, sweep,
 };
 
 /// Stick-slip of elastic bodies under rate-and-state friction. Each command writes numbers and pictures to a folder.
@@ -29,6 +29,7 @@ enum Command {
     Gmsh(Box<gmsh::Arguments>),
     Sweep(sweep::Arguments),
     Rupture(rupture::Arguments),
+    Rupture3d(rupture3d::Arguments),
     Layer(layer::Arguments),
     SpringSlider(Box<spring_slider::Arguments>),
     Slider3d(slider3d::Arguments),
@@ -46,6 +47,7 @@ impl Command {
             Self::Gmsh(arguments) => (&arguments.files, "gmsh"),
             Self::Sweep(arguments) => (&arguments.files, "sweep"),
             Self::Rupture(arguments) => (&arguments.files, "rupture"),
+            Self::Rupture3d(arguments) => (&arguments.files, "rupture3d"),
             Self::Layer(arguments) => (&arguments.files, "layer"),
             Self::SpringSlider(arguments) => (&arguments.files, "spring_slider"),
             Self::Slider3d(arguments) => (&arguments.files, "slider3d"),
@@ -69,6 +71,7 @@ pub fn run(line: &CommandLine) -> Result<(), Problem> {
         Command::Gmsh(arguments) => gmsh::run(arguments),
         Command::Sweep(arguments) => sweep::run(arguments),
         Command::Rupture(arguments) => rupture::run(arguments),
+        Command::Rupture3d(arguments) => rupture3d::run(arguments),
         Command::Layer(arguments) => layer::run(arguments),
         Command::SpringSlider(arguments) => spring_slider::run(arguments),
         Command::Slider3d(arguments) => slider3d::run(arguments),

@@ -32,6 +32,7 @@ pub mod probes;
 pub mod progress;
 pub mod record;
 pub mod rupture;
+pub mod rupture3d;
 pub mod sample;
 pub mod slider;
 pub mod slider3d;

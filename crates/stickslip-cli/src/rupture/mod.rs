@@ -28,12 +28,12 @@ mod problem;
 mod report;
 mod run;
 
-pub use problem::Law;
+pub use problem::{Law, aging_of, initial_of, smooth};
 pub use report::report;
 pub use run::run;
 
 use clap::{Parser, ValueEnum};
-use stickslip::nalgebra::Vector2;
+use stickslip::nalgebra::SVector;
 use stickslip::{Simulation, Steps};
 
 use crate::cli::{Problem, non_negative, positive};
@@ -124,7 +124,7 @@ impl Arguments {
 }
 
 /// Scales a load to a time: it grows within 1 s.
-pub fn grow(time: f64, whole: &[Vector2<f64>], load: &mut [Vector2<f64>]) {
+pub fn grow<const C: usize>(time: f64, whole: &[SVector<f64, C>], load: &mut [SVector<f64, C>]) {
     let share = if time <= 0.0 {
         0.0
     } else if time < 1.0 {

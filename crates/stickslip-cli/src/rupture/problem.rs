@@ -110,7 +110,12 @@ fn heated(fault: &Trace<2>) -> Result<ThermalPressurization, ThermalError> {
 
 /// 1 on the velocity-weakening fault, 0 beyond, smooth between: 15 km and 3 km wide.
 fn taper(x: f64) -> f64 {
-    let (inner, width) = (15e3, 3e3);
+    smooth(x, 15e3)
+}
+
+/// 1 up to a distance, 0 from 3 km beyond it, smooth between.
+pub fn smooth(x: f64, inner: f64) -> f64 {
+    let width = 3e3;
     let beyond = x.abs() - inner;
     if beyond <= 0.0 {
         1.0
@@ -123,8 +128,13 @@ fn taper(x: f64) -> f64 {
 
 /// The friction law of TPV101 at a position \[m\].
 fn aging(x: f64) -> RegularizedDieterichRuina {
+    aging_of(taper(x))
+}
+
+/// The friction law of TPV101 where so much of the fault weakens.
+pub fn aging_of(share: f64) -> RegularizedDieterichRuina {
     RegularizedDieterichRuina {
-        a: 0.008 + 0.008 * (1.0 - taper(x)),
+        a: 0.008 + 0.008 * (1.0 - share),
         b: 0.012,
         reference_friction: 0.6,
         reference_velocity: 0.5e-6,
@@ -135,7 +145,11 @@ fn aging(x: f64) -> RegularizedDieterichRuina {
 /// The state at a position, `ln(theta / 1 s)`, for which friction balances the initial shear stress at the initial slip
 /// rate.
 fn initial(x: f64) -> f64 {
-    let law = aging(x);
+    initial_of(&aging(x))
+}
+
+/// The same of a law.
+pub fn initial_of(law: &RegularizedDieterichRuina) -> f64 {
     let coefficient = Law::Aging.shear() / Law::Aging.normal();
     let psi = (law.in_psi()).state_of_friction(coefficient, Law::Aging.initial_rate());
     let LogTheta(alpha) = law.aging_in_psi().log_theta(psi);

@@ -31,7 +31,7 @@ fn scene<const C: usize, G: FaultGeometry<C>>(
     rate: SVector<f64, C>,
 ) -> Outcome<Scene<G::Kernel, C>> {
     let part = BoundaryPart::from(FaultGeometry::cells(fault));
-    let count = part.points().len();
+    let count = part.points.len();
     let contact = Contact::new(part, FRICTION, 50e6)
         .with_state(
             Dieterich {

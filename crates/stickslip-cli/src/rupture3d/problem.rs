@@ -1,0 +1,128 @@
+//! The faults, in terms of half the slip.
+
+use stickslip::fem::Trace;
+use stickslip::friction::LinearWeakening;
+use stickslip::nalgebra::Vector3;
+use stickslip::state::{LogTheta, SlipWeakening, Weakening};
+use stickslip::{Contact, Operator, Scene};
+
+use super::Benchmark;
+use crate::rupture::{Law, aging_of, initial_of, smooth};
+
+/// Half the length of a side of the squares of TPV5 \[m\].
+const SQUARE: f64 = 1.5e3;
+
+impl Benchmark {
+    /// Normal stress \[Pa\].
+    pub fn normal(self) -> f64 {
+        Law::Aging.normal()
+    }
+
+    /// The initial velocity of a half [m/s].
+    pub fn initial_rate(self) -> f64 {
+        match self {
+            Self::Tpv5 => 0.0,
+            Self::Tpv101 | Self::Tpv102 => Law::Aging.initial_rate(),
+        }
+    }
+
+    /// The initial shear stress of a vertex, the mean over a square of its spacing about it \[Pa\].
+    pub fn shear(self, [x, depth]: [f64; 2], spacing: f64) -> f64 {
+        if self != Self::Tpv5 {
+            return Law::Aging.shear();
+        }
+        let squares = [(0.0, 81.6e6), (-7.5e3, 78e6), (7.5e3, 62e6)];
+        let mean = squares.map(|(middle, stress)| {
+            let share = covered(x - middle, spacing) * covered(depth - 7.5e3, spacing);
+            share * (stress - 70e6)
+        });
+        70e6 + mean.iter().sum::<f64>()
+    }
+
+    /// The fully grown shear stress that nucleates the rupture \[Pa\].
+    pub fn nucleation(self, [x, depth]: [f64; 2]) -> f64 {
+        match self {
+            Self::Tpv5 => 0.0,
+            Self::Tpv101 | Self::Tpv102 => Law::Aging.nucleation(x.hypot(depth - self.middle())),
+        }
+    }
+
+    /// A scene with the fault, whose vertices have a spacing \[m\].
+    pub fn on<Op: Operator<3>>(
+        self,
+        scene: Scene<Op, 3>,
+        fault: &Trace<3>,
+        place: impl Fn(&Vector3<f64>) -> [f64; 2],
+        spacing: f64,
+    ) -> Scene<Op, 3> {
+        let stress = fault.map(|x| Vector3::new(self.shear(place(x), spacing), 0.0, 0.0));
+        let normal = self.normal();
+        match self {
+            Self::Tpv5 => {
+                let slips = |[x, depth]: [f64; 2]| x.abs() <= 15e3 && depth <= 15e3;
+                let laws = fault.map(|x| LinearWeakening {
+                    static_friction: if slips(place(x)) { 0.677 } else { 1e4 },
+                    dynamic_friction: 0.525,
+                });
+                let contact = Contact::per_vertex(fault, laws, normal)
+                    .with_state(SlipWeakening { slip_distance: 0.2 }, Weakening(0.0));
+                scene.with_contact(contact.with_free_normal().with_shear_stress(stress))
+            }
+            Self::Tpv101 | Self::Tpv102 => {
+                let law = |x: &Vector3<f64>| {
+                    let [along, depth] = place(x);
+                    aging_of(smooth(along, 15e3) * smooth(depth - self.middle(), 7.5e3))
+                };
+                let evolution = law(&Vector3::zeros()).aging();
+                let states = fault.map(|x| LogTheta(initial_of(&law(x))));
+                let contact = Contact::per_vertex(fault, fault.map(law), normal)
+                    .with_state(evolution, states);
+                scene.with_contact(contact.with_free_normal().with_shear_stress(stress))
+            }
+        }
+    }
+}
+
+/// The share of an interval of a length about a place that is within a square about 0.
+fn covered(place: f64, length: f64) -> f64 {
+    let [low, high] = [place - 0.5 * length, place + 0.5 * length];
+    ((high.min(SQUARE) - low.max(-SQUARE)) / length).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Vertices on an edge have the mean of both sides, and all together the stress of the squares.
+    #[test]
+    fn jumps_of_stress_are_averaged() {
+        let stress = |x: f64, depth: f64| Benchmark::Tpv5.shear([x, depth], 100.0) / 1e6;
+        assert_eq!(stress(0.0, 7.5e3), 81.6);
+        assert!((stress(1.5e3, 7.5e3) - 75.8).abs() < 1e-9);
+        assert!((stress(1.5e3, 9e3) - 72.9).abs() < 1e-9);
+        assert_eq!(
+            [
+                stress(-7.5e3, 7.5e3),
+                stress(7.5e3, 7.5e3),
+                stress(4e3, 7.5e3)
+            ],
+            [78.0, 62.0, 70.0]
+        );
+        let force: f64 = (-30..=30)
+            .map(|k| stress(100.0 * f64::from(k), 7.5e3) - 70.0)
+            .sum();
+        assert!((force - 30.0 * 11.6).abs() < 1e-9);
+    }
+
+    /// Friction bears the initial stress at the initial slip rate.
+    #[test]
+    fn the_fault_starts_in_balance() {
+        use stickslip::friction::FrictionLaw;
+        for share in [0.0, 0.3, 1.0] {
+            let law = aging_of(share);
+            let state = LogTheta(initial_of(&law));
+            let friction = law.coefficient(Benchmark::Tpv102.initial_rate(), state);
+            assert!((friction * 120e6 / 75e6 - 1.0).abs() < 1e-12);
+        }
+    }
+}
