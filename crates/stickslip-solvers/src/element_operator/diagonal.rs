@@ -1,6 +1,7 @@
 //! The solver of explicit steps.
 
 use nalgebra::SVector;
+use stickslip_core::compiled;
 
 use super::ElementOperator;
 use crate::{BlockMatrix, Diagonal, Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
@@ -43,5 +44,15 @@ impl<const C: usize> NonsmoothSolver<ElementOperator<C>, C> for Diagonal<C> {
 
     fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<ElementOperator<C>, C>> {
         Box::new(self.clone())
+    }
+
+    fn into_object(self) -> Box<dyn NonsmoothSolver<ElementOperator<C>, C>> {
+        object(self)
+    }
+}
+
+compiled! {
+    fn object<C>(solver: Diagonal<C>) -> Box<dyn NonsmoothSolver<ElementOperator<C>, C>> {
+        Box::new(solver)
     }
 }

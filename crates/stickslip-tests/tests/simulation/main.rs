@@ -1,6 +1,7 @@
 //! The claims of a simulation of a body: one program, a module for each theme.
 
 mod absence;
+mod absorbing;
 mod accelerations;
 mod adaptive_body;
 mod allocation;
