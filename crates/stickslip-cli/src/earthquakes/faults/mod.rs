@@ -5,12 +5,11 @@ mod friction;
 mod layout;
 mod record;
 
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::bie::FaultGeometry;
+use stickslip::bie::{FaultGeometry, OffFault};
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::bp1::{MEDIUM, PLATE_RATE};
 use stickslip::record::EventCatalogue;
@@ -19,6 +18,7 @@ use stickslip::{BoundaryPart, Contact, RungeKutta, Scene};
 
 pub use arguments::FaultFile;
 
+use super::off_fault::{self, OWN, Plan};
 use super::{Arguments, Failed, YEAR, state_for};
 use crate::progress::Progress;
 use friction::Strengths;
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<(), Failed> {
 
 fn run_on(
     arguments: &Arguments,
-    fault: &impl FaultGeometry<1>,
+    fault: &(impl FaultGeometry<1> + OffFault<1>),
     cells: &Layout,
 ) -> Result<(), Failed> {
     let settings = &arguments.fault_file;
@@ -64,6 +64,17 @@ fn run_on(
         &FILES
     };
     let output = arguments.files.create("earthquakes", files)?;
+    // Faults of several pieces have no plane that creeps beyond their cells.
+    let plan = Plan {
+        sources: fault.sources()?,
+        plate: None,
+        stations: Vec::new(),
+        axes: OWN,
+        event: EVENT,
+        extent: cells.extent(),
+    };
+    let folder = output.folder();
+    let mut off_fault = off_fault::Record::new(arguments, plan, folder, &motion.snapshot())?;
     let mut record = Record::new(cells, arguments.end(), EVENT);
     let limits = [EVENT, 0.1 * EVENT];
     let mut catalogue =
@@ -76,9 +87,10 @@ fn run_on(
             let (years, rate) = (at.time / YEAR, at.max_slip_rate());
             format!("{years:.2} years, step {}, {rate:.1e} m/s", at.step)
         });
-        ControlFlow::<()>::Continue(())
+        off_fault.record(&at)
     })?;
     drop(progress);
+    off_fault.finish(&motion.snapshot())?;
     let seconds = clock.elapsed().as_secs_f64();
     // One under way at the end has no arrest.
     let under_way = catalogue.under_way(&motion.snapshot());

@@ -3,8 +3,11 @@
 mod collection;
 mod file;
 mod grid;
+mod surface_grid;
 mod vtu;
 mod xml;
+
+pub use surface_grid::SurfaceGrid;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
