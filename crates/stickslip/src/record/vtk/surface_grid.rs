@@ -12,6 +12,7 @@ use crate::record::check::{positive, require};
 /// a fault, before and after an event.
 ///
 /// ```
+/// # #[cfg(feature = "bie")] {
 /// use stickslip::bie::{Cells, Medium, PlaneFault, Receivers, Rectangles};
 /// use stickslip::nalgebra::Vector1;
 /// use stickslip::record::SurfaceGrid;
@@ -25,6 +26,7 @@ use crate::record::check::{positive, require};
 /// let path = std::env::temp_dir().join("stickslip-surface-example.vtu");
 /// grid.write(&path, &[("displacement", &moved)])?;
 /// # std::fs::remove_file(&path)?;
+/// # }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
