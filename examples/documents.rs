@@ -35,6 +35,9 @@ mod documents {
     #[doc = include_str!("../docs/nonplanar.md")]
     struct Nonplanar;
 
+    #[doc = include_str!("../docs/receivers.md")]
+    struct Receivers;
+
     #[doc = include_str!("../docs/recipes.md")]
     struct Recipes;
 

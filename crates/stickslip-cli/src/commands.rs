@@ -24,7 +24,7 @@ enum Command {
     Slider(Box<slider::Arguments>),
     Figures(figures::Arguments),
     Fit(Box<fit::Arguments>),
-    Earthquakes(earthquakes::Arguments),
+    Earthquakes(Box<earthquakes::Arguments>),
     Injection(Box<injection::Arguments>),
     Gmsh(Box<gmsh::Arguments>),
     Sweep(sweep::Arguments),

@@ -32,6 +32,10 @@ pub enum FileError {
         /// The cause.
         source: io::Error,
     },
+    /// Displacement off a fault cannot be had.
+    #[cfg(feature = "bie")]
+    #[error(transparent)]
+    Receivers(#[from] stickslip_bie::ReceiverError),
     /// Two points of a recorder have one file: their names agree, rounded.
     #[error(
         "{} would be the file of two points, {} and {}: choose points further apart, or a smaller unit of the names",

@@ -147,11 +147,10 @@ impl<const C: usize> Receivers<C> {
         self.check_slips(slip)?;
         // No cells, no displacement.
         let row = (self.sources.count() * C).max(1);
-        let slips = slip.iter().flat_map(|slip| slip.iter());
         let sum = |row: &[f64]| {
-            row.iter()
-                .zip(slips.clone())
-                .map(|(g, d)| g * d)
+            let terms = row.chunks_exact(C).zip(slip);
+            terms
+                .map(|(g, d)| d.iter().zip(g).map(|(d, g)| d * g).sum::<f64>())
                 .sum::<f64>()
         };
         let mut sums = self.matrix.chunks_exact(row).map(sum);

@@ -1,11 +1,14 @@
 //! An antiplane fault by boundary integrals: its scene, and its motion with a method.
 
+use super::line::EVENT;
+use super::off_fault::{OWN, Plan};
 use super::{Arguments, Method};
 use crate::cli;
-use stickslip::bie::Fault;
+use stickslip::bie::{Fault, OffFault};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
 use stickslip::nalgebra::{DMatrix, Vector1};
+use stickslip::problems::bp1::PLATE_RATE;
 use stickslip::state::{Dieterich, LogTheta, StateLaw};
 use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simulation};
 
@@ -21,6 +24,18 @@ fn scene<Op: Operator<1>, S: StateLaw<State = LogTheta> + 'static>(
         .with_contact(friction)
         .with_load_history(fault.plate_loading(beyond))
         .with_velocity(fault.cells().map(|_| Vector1::new(start)))
+}
+
+/// What is off the fault.
+pub(super) fn off_fault(fault: &Fault) -> Result<Plan<1>, cli::Problem> {
+    Ok(Plan {
+        sources: fault.sources()?,
+        plate: Some(Vector1::new(PLATE_RATE)),
+        stations: Vec::new(),
+        axes: OWN,
+        event: EVENT,
+        extent: None,
+    })
 }
 
 /// The motion of an antiplane fault with the requested method, from a slip rate on its cells and with another one

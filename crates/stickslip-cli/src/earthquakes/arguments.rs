@@ -6,7 +6,7 @@ use clap::{Parser, ValueEnum};
 use stickslip::Steps;
 use stickslip::bie::{Cells, Sense};
 
-use super::{FaultFile, Fluid, Problem, Source, YEAR};
+use super::{FaultFile, Fluid, OffFault, Problem, Source, YEAR};
 use crate::cli::{Problem as Failed, positive};
 use crate::output::Files;
 
@@ -54,6 +54,9 @@ pub struct Arguments {
     /// Faults of a file.
     #[command(flatten)]
     pub fault_file: FaultFile,
+    /// Displacement off the fault.
+    #[command(flatten)]
+    pub off_fault: OffFault,
     /// A folder for files in the format of the SEAS benchmarks
     #[arg(long, value_name = "DIR")]
     pub seas: Option<PathBuf>,
@@ -92,6 +95,16 @@ impl Arguments {
             ("--thrust", self.thrust, bp3 || of_file),
             ("--normal", self.normal, bp3 || of_file),
             ("--seas", self.seas.is_some(), !of_file),
+            (
+                "--receivers",
+                self.off_fault.receivers.is_some(),
+                of_file || !(bp6 || bp8),
+            ),
+            (
+                "--surface-grid",
+                self.off_fault.surface_grid.is_some(),
+                of_file || problem == Problem::Bp5,
+            ),
             (
                 "--components",
                 self.components.is_some(),
@@ -216,6 +229,8 @@ mod tests {
             "--problem bp6 --allow-opening",
             "--problem bp6 --refine 3",
             "--faults ramp.csv --seas files",
+            "--problem bp3 --surface-grid 1000",
+            "--problem bp6 --receivers gps.csv",
             "--faults ramp.csv --method implicit",
             "--faults ramp.csv --dip 30",
         ] {
@@ -228,6 +243,7 @@ mod tests {
         for line in [
             "--problem bp3 --dip 30 --normal",
             "--problem bp7 --no-perturbation --components 2",
+            "--problem bp5 --surface-grid 1000 --receivers gps.csv",
             "--problem bp6s --pressure closed-form --seas files",
             "--problem bp8 --source well --allow-opening --refine 1",
         ] {

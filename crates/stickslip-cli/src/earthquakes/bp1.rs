@@ -8,7 +8,7 @@ use stickslip::problems::bp1::{self, AGING, DEPTH, MEDIUM, NORMAL_STRESS, PLATE_
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{BoundaryPart, Contact};
 
-use super::antiplane::{Friction, antiplane};
+use super::antiplane::{Friction, antiplane, off_fault};
 use super::line::Line;
 use super::{Arguments, Failed, YEAR};
 use crate::cli::expect;
@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failed> {
     let contact = contact(&fault, &fault.cells().map(|z| z), AGING.slip_distance);
     let mut motion = antiplane(arguments, &fault, contact, [PLATE_RATE; 2])?;
     let starts = START.map(|[time, _]| time);
-    let mut line = Line::new(arguments, fault.cells(), &starts);
+    let mut line = Line::new(arguments, fault.cells(), &starts).with_off_fault(off_fault(&fault)?);
     line.run(arguments, json!({}), &mut *motion)?;
     check(arguments, &line)
 }

@@ -5,7 +5,7 @@ use serde_json::json;
 use stickslip::bie::Fault;
 use stickslip::problems::bp1::{MEDIUM, PLATE_RATE};
 
-use super::antiplane::antiplane;
+use super::antiplane::{antiplane, off_fault};
 use super::bp1::{self, ENDS};
 use super::line::Line;
 use super::{Arguments, Failed};
@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failed> {
     let contact = bp1::contact(&fault, &fault.cells().map(|z| z), SLIP_DISTANCE);
     let mut motion = antiplane(arguments, &fault, contact, [PLATE_RATE; 2])?;
     let starts = START.map(|[time, _]| time);
-    let mut line = Line::new(arguments, fault.cells(), &starts);
+    let mut line = Line::new(arguments, fault.cells(), &starts).with_off_fault(off_fault(&fault)?);
     line.run(arguments, json!({}), &mut *motion)?;
     if arguments.is_accurate() {
         for ([time, exact], found) in START.iter().zip(&line.start) {

@@ -2,13 +2,14 @@
 //! distance down dip. Slip changes the normal stress.
 
 use serde_json::json;
-use stickslip::bie::{DippingFault, Sense};
+use stickslip::bie::{DippingFault, OffFault, Sense};
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::bp1::{AGING, MEDIUM, PLATE_RATE};
 use stickslip::{RungeKutta, Scene};
 
 use super::bp1::{self, ENDS};
-use super::line::Line;
+use super::line::{EVENT, Line};
+use super::off_fault::{PLANE_STRAIN, Plan};
 use super::{Arguments, Failed, YEAR};
 use crate::cli::expect;
 
@@ -35,10 +36,32 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failed> {
         .with_velocity(fault.cells().map(|_| plate));
     let mut motion = RungeKutta::new(scene)?;
     let starts = START.map(|[time, _]| time);
-    let mut line = Line::new(arguments, fault.cells(), &starts).with_normal_stress();
+    let mut line = Line::new(arguments, fault.cells(), &starts)
+        .with_normal_stress()
+        .with_off_fault(off_fault(&fault)?);
     let settings = json!({ "dip": dip, "sense": format!("{sense:?}").to_lowercase() });
     line.run(arguments, settings, &mut motion)?;
     check(arguments, &line)
+}
+
+/// What is off the fault: the stations of the benchmark, by their distance from the trace \[km\], and one on each side of it.
+fn off_fault(fault: &DippingFault) -> Result<Plan<1>, Failed> {
+    let beside = 1e-7 * fault.cells().length();
+    let far = [-32.0, -16.0, -8.0, 8.0, 16.0, 32.0];
+    let stations = far.map(|x: f64| (format!("srfst_fn{x:+03}"), 1e3 * x));
+    let near = [
+        ("srfst_fn-00".to_owned(), -beside),
+        ("srfst_fn+00".to_owned(), beside),
+    ];
+    let stations = stations.into_iter().chain(near);
+    Ok(Plan {
+        sources: fault.sources()?,
+        plate: Some(Vector1::new(PLATE_RATE)),
+        stations: stations.map(|(name, x)| (name, [x, 0.0, 0.0])).collect(),
+        axes: PLANE_STRAIN,
+        event: EVENT,
+        extent: None,
+    })
 }
 
 /// Checks the start, and the first event for cells that resolve it.

@@ -32,6 +32,7 @@ const SETTING: Setting = Setting {
         [0.0, 12e3],
         [36e3, 0.0],
     ],
+    blocks: &[],
     names: (100.0, 3),
     intervals: [5.0 * YEAR, 2.0],
     labels: ["every 5 years", "every 2 seconds of events"],

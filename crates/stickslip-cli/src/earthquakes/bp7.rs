@@ -34,6 +34,13 @@ const SETTING: Setting = Setting {
         [0.0, 200.0],
         [300.0, 0.0],
     ],
+    blocks: &[
+        [0.0, 200.0, 0.0],
+        [0.0, 400.0, 0.0],
+        [0.0, 400.0, 300.0],
+        [300.0, 400.0, 0.0],
+        [-300.0, 400.0, 0.0],
+    ],
     names: (1.0, 3),
     intervals: [0.05 * YEAR, 0.02],
     labels: ["every 0.05 years", "every 0.02 seconds of events"],

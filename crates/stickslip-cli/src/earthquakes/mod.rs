@@ -16,6 +16,7 @@ mod events;
 mod faults;
 mod fluid;
 mod line;
+mod off_fault;
 mod pictures;
 mod plane;
 mod plane_record;
@@ -30,6 +31,7 @@ pub(crate) mod watch;
 pub use arguments::{Arguments, Method};
 pub use faults::FaultFile;
 pub use fluid::{Fluid, Pressure, Source};
+pub use off_fault::OffFault;
 pub use problem::Problem;
 pub use run::run;
 

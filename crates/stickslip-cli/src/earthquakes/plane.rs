@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::bie::{Overstress, PlaneFault, PlaneKernel, Rectangles};
+use stickslip::bie::{OffFault, Overstress, PlaneFault, PlaneKernel, Rectangles};
 use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
 use stickslip::nalgebra::SVector;
 use stickslip::problems::bp1::{MEDIUM, PLATE_RATE};
@@ -13,6 +13,7 @@ use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, RungeKutta, Scene};
 
 use super::events::Events;
+use super::off_fault::{self, Plan, VERTICAL, WHOLE_SPACE, block_name};
 use super::plane_record::{EVENT, Record};
 use super::seas::{Places, files};
 use super::{Arguments, Failed, YEAR};
@@ -41,6 +42,8 @@ pub(super) struct Setting {
     /// The lines of the pictures: along strike at a distance down dip, and down dip at a distance along strike \[m\].
     pub(super) lines: [f64; 2],
     pub(super) stations: &'static [[f64; 2]],
+    /// The stations off the fault: along strike, along the normal and down \[m\].
+    pub(super) blocks: &'static [[f64; 3]],
     /// The unit \[m\] and the digits of the names of their files.
     pub(super) names: (f64, usize),
     /// The intervals of slip contours between events and in events \[s\], and their names.
@@ -155,6 +158,33 @@ impl Setting {
         }
     }
 
+    /// What is off the fault. The normal of the benchmarks points into the hanging wall, the side that slip moves.
+    fn off_fault<const C: usize>(&self, fault: &PlaneFault<C>) -> Result<Plan<C>, Failed> {
+        let point = |[x, normal, down]: [f64; 3]| {
+            if self.half_space {
+                [x, -normal, -down]
+            } else {
+                [x, -down, normal]
+            }
+        };
+        let stations = self.blocks.iter();
+        let stations = stations.map(|&at| (block_name(at, self.names), point(at)));
+        Ok(Plan {
+            sources: fault.sources()?,
+            plate: Some(SVector::from_fn(
+                |c, _| if c == 0 { PLATE_RATE } else { 0.0 },
+            )),
+            stations: stations.collect(),
+            axes: if self.half_space {
+                VERTICAL
+            } else {
+                WHOLE_SPACE
+            },
+            event: EVENT,
+            extent: self.half_space.then_some([self.ends[0], [0.0; 2]]),
+        })
+    }
+
     fn follow<const C: usize>(
         &self,
         arguments: &Arguments,
@@ -174,6 +204,8 @@ impl Setting {
         let mut motion = RungeKutta::new(self.scene(fault)?)?;
         let setup = clock.elapsed().as_secs_f64();
         let mut files = files(arguments, self.places(fault), &motion.snapshot())?;
+        let (plan, folder) = (self.off_fault(fault)?, output.folder());
+        let mut off_fault = off_fault::Record::new(arguments, plan, folder, &motion.snapshot())?;
         let mut record = Record::new(self, arguments.end(), fault.cells(), &motion.snapshot())?;
         record.see(&motion.snapshot());
         let mut steps = arguments.steps();
@@ -189,9 +221,11 @@ impl Setting {
                 let (years, rate) = (at.time / YEAR, at.max_slip_rate());
                 format!("{years:.2} years, step {}, {rate:.1e} m/s", at.step)
             });
+            off_fault.record(&at)?;
             (files.as_mut()).map_or(ControlFlow::Continue(()), |files| files.record(&at))
         })?;
         drop(progress);
+        off_fault.finish(&motion.snapshot())?;
         if let Some(files) = files {
             files.finish()?;
         }

@@ -6,6 +6,7 @@ mod fit;
 mod fit_jointly;
 mod injection;
 mod killed;
+mod off_fault;
 mod pipes;
 mod refusals;
 mod rupture;

@@ -7,6 +7,8 @@ mod event;
 mod ledger;
 mod npy;
 mod points;
+#[cfg(feature = "bie")]
+mod receivers;
 mod rupture_times;
 mod seas;
 mod table;
@@ -23,6 +25,8 @@ pub use event::Event;
 pub use ledger::{Balance, EnergyLedger};
 pub use npy::NpyArray;
 pub use points::PointHistories;
+#[cfg(feature = "bie")]
+pub use receivers::{ReceiverFiles, ReceiverFolder};
 pub use rupture_times::{Rupture, RuptureTimes};
 pub use seas::{
     SeasFiles, SeasFolder, SeasGlobal, SeasHeader, SeasPoint, SeasProfile, SeasStation, SeasTable,
@@ -34,4 +38,4 @@ pub use tracing::{Quantity, Tracing};
 #[cfg(all(feature = "vtk", feature = "bie"))]
 pub use vtk::VtkFaultSeries;
 #[cfg(feature = "vtk")]
-pub use vtk::VtkSeries;
+pub use vtk::{SurfaceGrid, VtkSeries};

@@ -34,6 +34,19 @@ impl Layout {
         self.centers.len()
     }
 
+    /// The extent of the centres of triangles along `x` and `y` \[m\]; none of polylines.
+    pub(super) fn extent(&self) -> Option<[[f64; 2]; 2]> {
+        if !self.lines.is_empty() {
+            return None;
+        }
+        let range = |axis: usize| {
+            let places = self.centers.iter().map(|center| center[axis]);
+            let none = [f64::INFINITY, f64::NEG_INFINITY];
+            places.fold(none, |[low, high], x| [low.min(x), high.max(x)])
+        };
+        Some([range(0), range(1)])
+    }
+
     /// The number of faults.
     pub(super) fn fault_count(&self) -> usize {
         self.faults.iter().max().map_or(0, |last| last + 1)

@@ -6,12 +6,11 @@ mod layout;
 mod record;
 mod surface;
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::bie::FaultGeometry;
+use stickslip::bie::{FaultGeometry, OffFault};
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::bp1::{MEDIUM, PLATE_RATE};
 use stickslip::record::{EventCatalogue, VtkFaultSeries};
@@ -20,6 +19,7 @@ use stickslip::{BoundaryPart, Contact, RungeKutta, Scene, SceneError, Snapshot};
 
 pub use arguments::FaultFile;
 
+use super::off_fault::{self, OWN, Plan};
 use super::{Arguments, Failed, YEAR, state_for};
 use crate::progress::Progress;
 use friction::Strengths;
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<(), Failed> {
 
 fn run_on(
     arguments: &Arguments,
-    fault: &impl FaultGeometry<1>,
+    fault: &(impl FaultGeometry<1> + OffFault<1>),
     cells: &Layout,
     mut record: Record<'_>,
     series: impl FnOnce(&Snapshot<'_, 1>, PathBuf) -> Result<VtkFaultSeries, SceneError>,
@@ -78,6 +78,17 @@ fn run_on(
         0 => None,
         every => Some(series(&motion.snapshot(), output.path(SERIES))?.every(every)?),
     };
+    // Faults of several pieces have no plane that creeps beyond their cells.
+    let plan = Plan {
+        sources: fault.sources()?,
+        plate: None,
+        stations: Vec::new(),
+        axes: OWN,
+        event: EVENT,
+        extent: cells.extent(),
+    };
+    let folder = output.folder();
+    let mut off_fault = off_fault::Record::new(arguments, plan, folder, &motion.snapshot())?;
     let limits = [EVENT, 0.1 * EVENT];
     let mut catalogue =
         EventCatalogue::new(&motion.snapshot(), 0, limits, MEDIUM.shear_modulus, 100)?;
@@ -89,13 +100,15 @@ fn run_on(
             let (years, rate) = (at.time / YEAR, at.max_slip_rate());
             format!("{years:.2} years, step {}, {rate:.1e} m/s", at.step)
         });
+        let followed = off_fault.record(&at);
         match &mut series {
-            Some(series) => series.record(&at),
-            None => ControlFlow::Continue(()),
+            Some(series) if followed.is_continue() => series.record(&at),
+            _ => followed,
         }
     })?;
     drop(progress);
     series.map_or(Ok(()), VtkFaultSeries::finish)?;
+    off_fault.finish(&motion.snapshot())?;
     let seconds = clock.elapsed().as_secs_f64();
     // One under way at the end has no arrest.
     let under_way = catalogue.under_way(&motion.snapshot());

@@ -12,6 +12,7 @@ use stickslip::problems::bp1::MEDIUM;
 use stickslip::record::{EventCatalogue, SeasPoint};
 use stickslip::{Run, Snapshot};
 
+use super::off_fault::{self, Plan};
 use super::profiles::Profiles;
 use super::seas::{Places, files};
 use super::space_time::SpaceTime;
@@ -21,7 +22,7 @@ use crate::plot::Points;
 use crate::progress::Progress;
 
 /// The slip rate at which an event begins and ends at its station [m/s].
-const EVENT: f64 = 1e-2;
+pub(super) const EVENT: f64 = 1e-2;
 /// The stations, the surface and the one that detects events: distance from the surface \[m\].
 const STATIONS: [f64; 2] = [0.0, 7.5e3];
 /// The stations of the files of the benchmark \[km\].
@@ -41,6 +42,7 @@ pub(super) struct Line<'a> {
     cells: &'a Cells,
     /// Times \[s\] at which the slip rate at the surface is reported.
     starts: &'a [f64],
+    off_fault: Option<Plan<1>>,
     /// Whether normal stress follows slip.
     follows: bool,
     stations: [Station; 2],
@@ -75,6 +77,7 @@ impl<'a> Line<'a> {
         Self {
             cells,
             starts,
+            off_fault: None,
             follows: false,
             stations: STATIONS.map(|z| Station::on_line(cells, z)),
             events: Onsets::new(EVENT, 0.1 * EVENT),
@@ -90,6 +93,12 @@ impl<'a> Line<'a> {
             profiles: Profiles::new(line, INTERVALS),
             steps: 0,
         }
+    }
+
+    /// Writes displacement off the fault, too.
+    pub(super) fn with_off_fault(mut self, plan: Plan<1>) -> Self {
+        self.off_fault = Some(plan);
+        self
     }
 
     /// Reports the normal stress, too.
@@ -189,6 +198,11 @@ impl<'a> Line<'a> {
         ];
         let output = arguments.files.create("earthquakes", &FILES)?;
         let mut files = files(arguments, self.places(), &motion.snapshot())?;
+        let plan = self.off_fault.take();
+        let plan = plan.map(|plan| {
+            off_fault::Record::new(arguments, plan, output.folder(), &motion.snapshot())
+        });
+        let mut off_fault = plan.transpose()?;
         let (clock, mut progress) = (Instant::now(), Progress::default());
         let rates = [EVENT, 0.1 * EVENT];
         let mut catalogue =
@@ -202,9 +216,15 @@ impl<'a> Line<'a> {
                 let (years, rate) = (at.time / YEAR, at.max_slip_rate());
                 format!("{years:.2} years, step {}, {rate:.1e} m/s", at.step)
             });
+            if let Some(off_fault) = &mut off_fault {
+                off_fault.record(&at)?;
+            }
             (files.as_mut()).map_or(ControlFlow::Continue(()), |files| files.record(&at))
         })?;
         drop(progress);
+        if let Some(off_fault) = off_fault {
+            off_fault.finish(&motion.snapshot())?;
+        }
         if let Some(files) = files {
             files.finish()?;
         }

@@ -5,8 +5,11 @@ mod collection;
 mod fault;
 mod file;
 mod grid;
+mod surface_grid;
 mod vtu;
 mod xml;
+
+pub use surface_grid::SurfaceGrid;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
