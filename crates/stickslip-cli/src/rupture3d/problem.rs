@@ -1,5 +1,7 @@
 //! The faults, in terms of half the slip.
 
+use std::f64::consts::PI;
+
 use stickslip::fem::Trace;
 use stickslip::friction::LinearWeakening;
 use stickslip::nalgebra::Vector3;
@@ -44,6 +46,23 @@ impl Benchmark {
         match self {
             Self::Tpv5 => 0.0,
             Self::Tpv101 | Self::Tpv102 => Law::Aging.nucleation(x.hypot(depth - self.middle())),
+        }
+    }
+
+    /// The length at the front over which friction weakens, in an infinite fault at rest \[m\]:
+    /// `G L/((1 - nu) b sigma_n)`, or `9 pi/32 G D_c/(tau_s - tau_d)` of slip weakening (S. Day et al., J. Geophys. Res. 110
+    /// (2005)).
+    pub fn weakening_length(self) -> f64 {
+        let modulus = 2670.0 * 3464.0_f64.powi(2);
+        match self {
+            Self::Tpv5 => 9.0 * PI / 32.0 * modulus * 0.4 / ((0.677 - 0.525) * self.normal()),
+            Self::Tpv101 | Self::Tpv102 => {
+                // Poisson's ratio of the wave speeds.
+                let ratio = (3464.0_f64 / 6000.0).powi(2);
+                let poisson_ratio = (1.0 - 2.0 * ratio) / (2.0 - 2.0 * ratio);
+                let law = aging_of(1.0);
+                2.0 * modulus * law.slip_distance / ((1.0 - poisson_ratio) * law.b * self.normal())
+            }
         }
     }
 

@@ -79,7 +79,7 @@ pub(super) fn report(arguments: &Arguments, outcome: &Outcome) -> Result<(), Pro
     }
     let places = problem.stations().into_iter();
     let labels: Vec<String> = places
-        .map(|[x, depth]| format!("{:.1} km, {:.1} km deep", x / 1e3, depth / 1e3))
+        .map(|[x, depth]| format!("{}, {} km", x / 1e3, depth / 1e3))
         .collect();
     let panel = |name, column: usize, scale: f64| {
         let mut panel = Panel::new("time [s]", name);
@@ -89,7 +89,7 @@ pub(super) fn report(arguments: &Arguments, outcome: &Outcome) -> Result<(), Pro
         panel
     };
     let panels = [
-        panel("slip along strike [m]", 1, 1.0),
+        panel("slip at distances along strike and depths [m]", 1, 1.0),
         panel("slip rate along strike [m/s]", 2, 1.0),
         panel("shear stress along strike [MPa]", 3, 1e-6),
     ];

@@ -17,12 +17,23 @@ use crate::rupture::grow;
 /// The slip rate of a half at which a vertex ruptures [m/s].
 const RUPTURED: f64 = 0.5e-3;
 
+/// The edges of cells in the length over which friction weakens that resolve it (S. Day et al., J. Geophys. Res. 110 (2005)).
+const RESOLVED: f64 = 3.0;
+
 /// A dynamic rupture in space.
 ///
 /// # Errors
 /// In one line: a wrong setting, a failed step, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let problem = arguments.problem;
+    let length = problem.weakening_length();
+    if arguments.cell > length / RESOLVED {
+        note!(
+            "warning: edges of {} m do not resolve the {length:.0} m over which friction weakens at the front: take --cell {:.0} or less",
+            arguments.cell,
+            length / RESOLVED
+        );
+    }
     let space = body(arguments)?;
     let begin = begin(arguments);
     let place = move |x: &Vector3<f64>| [x[0] + begin, x[2]];

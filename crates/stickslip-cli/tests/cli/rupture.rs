@@ -77,3 +77,36 @@ fn thermal_pressurization_weakens_further() -> Outcome {
     );
     Ok(())
 }
+
+/// In space: a coarse rupture starts with the prestress, and slides at the middle when that of TPV102 does, .575 s by codes with
+/// cells of 100 m, at a stress behind the front near theirs, 65 MPa.
+#[test]
+fn a_rupture_in_space_starts_in_time() -> Outcome {
+    let folder = folder("rupture3d")?;
+    let line = "--problem tpv102 --cell 1200 --growth 0.4 --margin 6000 --until 3";
+    let output = program("rupture3d")
+        .args(line.split(' '))
+        .arg("--out")
+        .arg(&folder)
+        .output()?;
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{told}");
+    assert!(told.contains("do not resolve"), "{told}");
+    let station = fs::read_to_string(folder.join("faultst000dp075.txt"))?;
+    let rows = station.lines().filter(|line| !line.starts_with(['#', 't']));
+    let rows = rows.map(|line| line.split(' ').flat_map(str::parse).collect::<Vec<f64>>());
+    let rows: Vec<_> = rows.collect();
+    assert_eq!((rows[0][0], rows[0][3], rows[0][7]), (0.0, 75.0, -120.0));
+    let arrival = rows.iter().find(|row| row[2] > 1e-3).ok_or("no arrival")?;
+    assert!((arrival[0] - 0.575).abs() < 0.07, "{}", arrival[0]);
+    let last = rows.last().ok_or("no row")?;
+    assert!(last[1] > 2.0 && (60.0..70.0).contains(&last[3]), "{last:?}");
+    let moment = fs::read_to_string(folder.join("moment.csv"))?;
+    let moments = moment
+        .lines()
+        .skip(1)
+        .flat_map(|line| line.split(',').nth(1));
+    let moments: Vec<f64> = moments.flat_map(str::parse).collect();
+    assert!(moments.is_sorted() && moments.last() > Some(&1e17));
+    Ok(())
+}

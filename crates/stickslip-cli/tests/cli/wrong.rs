@@ -153,7 +153,7 @@ const INJECTION: [Wrong; 20] = [
     ("injection --shear-stress 0", "--shear-stress"),
 ];
 
-const OTHERS: [Wrong; 41] = [
+const OTHERS: [Wrong; 44] = [
     ("earthquakes --problem bp9", "--problem"),
     ("earthquakes --cell 333", "--cell 333"),
     ("earthquakes --cell 1e-9", "--cell"),
@@ -206,6 +206,9 @@ const OTHERS: [Wrong; 41] = [
     ("rupture --growth=-1", "--growth"),
     ("rupture --scheme newmark", "--scheme"),
     ("rupture --law slip", "--law"),
+    ("rupture3d --problem tpv6", "--problem"),
+    ("rupture3d --cell=-1", "--cell"),
+    ("rupture3d --margin 0", "--margin"),
     ("layer --law none", "--law"),
     ("layer --every 0", "--every"),
     ("slider3d --degrees nan", "--degrees"),
@@ -216,7 +219,7 @@ const OTHERS: [Wrong; 41] = [
 ];
 
 /// Every command refuses a file as its folder before it runs.
-const COMMANDS: [&str; 11] = [
+const COMMANDS: [&str; 12] = [
     "slider",
     "figures 6.1",
     "fit DATA",
@@ -225,6 +228,7 @@ const COMMANDS: [&str; 11] = [
     "gmsh MESH",
     "sweep",
     "rupture",
+    "rupture3d",
     "layer",
     "spring-slider",
     "slider3d",
