@@ -115,40 +115,35 @@ impl<const C: usize> OffFault<C> for FaultSystem<C> {
         // There is at least one.
         let rock = planes[0].elastic_rock()?;
         let of_plane = |number: usize| planes[number].patches(&self.axes(number));
-        let mut cells: Vec<_> = (0..planes.len()).flat_map(of_plane).collect();
-        if let Some(surface) = self.surface() {
-            let triangles = 0..surface.cells().count();
-            cells.extend(triangles.map(|cell| {
-                let [a, b, c] = surface.cells().corners(cell).map(Vector3::from);
-                // The loop of a triangle, one of whose sides has two parts.
-                (Loop::new([a, b, (b + c) * 0.5, c]), slips(surface, cell))
-            }));
-        }
-        Ok(Sources::new(
-            Cells::Rectangles(Patches { rock, cells }),
-            true,
-        ))
+        let cells = (0..planes.len()).flat_map(of_plane).collect();
+        let rectangles = Patches { rock, cells };
+        let cells = match self.surface() {
+            Some(surface) => Cells::Both(rectangles, triangles(surface)),
+            None => Cells::Rectangles(rectangles),
+        };
+        Ok(Sources::new(cells, true))
     }
 }
 
 impl<const C: usize> OffFault<C> for SurfaceFault<C> {
     fn sources(&self) -> Result<Sources<C>, ReceiverError> {
-        let cells = self.cells();
-        let patch = |cell: usize| {
-            let corners = cells.corners(cell).map(Vector3::from);
-            (Loop::new(corners), slips(self, cell))
-        };
-        let patches = Patches {
-            rock: self.elastic_rock(),
-            cells: (0..cells.count()).map(patch).collect(),
-        };
-        Ok(Sources::new(Cells::Triangles(patches), self.has_surface()))
+        let cells = Cells::Triangles(triangles(self));
+        Ok(Sources::new(cells, self.has_surface()))
     }
 }
 
-/// The directions of slip of a triangle.
-fn slips<const C: usize>(fault: &SurfaceFault<C>, cell: usize) -> [Vector3<f64>; C] {
-    let axes = fault.cells().axes(cell);
-    let [strike, up_dip] = [axes.strike, axes.up_dip].map(Vector3::from);
-    fault.directions()[cell].map(|[along, up]| strike * along + up_dip * up)
+/// The triangles of a surface, each with its directions of slip.
+fn triangles<const C: usize>(fault: &SurfaceFault<C>) -> Patches<C, 3> {
+    let cells = fault.cells();
+    let patch = |cell: usize| {
+        let axes = cells.axes(cell);
+        let [strike, up_dip] = [axes.strike, axes.up_dip].map(Vector3::from);
+        let directions = fault.directions()[cell];
+        let slips = directions.map(|[along, up]| strike * along + up_dip * up);
+        (Loop::new(cells.corners(cell).map(Vector3::from)), slips)
+    };
+    Patches {
+        rock: fault.elastic_rock(),
+        cells: (0..cells.count()).map(patch).collect(),
+    }
 }

@@ -26,6 +26,55 @@ pub(crate) enum Cells<const C: usize> {
     Lines(Lines),
     Triangles(Patches<C, 3>),
     Rectangles(Patches<C, 4>),
+    /// Rectangles, then triangles.
+    Both(Patches<C, 4>, Patches<C, 3>),
+}
+
+impl<const C: usize> Cells<C> {
+    fn count(&self) -> usize {
+        match self {
+            Self::Lines(lines) => lines.segments.len(),
+            Self::Triangles(patches) => patches.cells.len(),
+            Self::Rectangles(patches) => patches.cells.len(),
+            Self::Both(rectangles, triangles) => rectangles.cells.len() + triangles.cells.len(),
+        }
+    }
+
+    fn displacements(&self, cell: usize, at: &Vector3<f64>) -> [Vector3<f64>; C] {
+        match self {
+            Self::Lines(lines) => [lines.displacement(cell, at); C].map(Into::into),
+            Self::Triangles(patches) => patches.displacements(cell, at),
+            Self::Rectangles(patches) => patches.displacements(cell, at),
+            Self::Both(rectangles, triangles) => match cell.checked_sub(rectangles.cells.len()) {
+                Some(cell) => triangles.displacements(cell, at),
+                None => rectangles.displacements(cell, at),
+            },
+        }
+    }
+
+    fn stresses(&self, cell: usize, at: &Vector3<f64>) -> [Matrix3<f64>; C] {
+        match self {
+            Self::Lines(lines) => [lines.stress(cell, at); C],
+            Self::Triangles(patches) => patches.stresses(cell, at),
+            Self::Rectangles(patches) => patches.stresses(cell, at),
+            Self::Both(rectangles, triangles) => match cell.checked_sub(rectangles.cells.len()) {
+                Some(cell) => triangles.stresses(cell, at),
+                None => rectangles.stresses(cell, at),
+            },
+        }
+    }
+
+    fn length_and_distance(&self, cell: usize, at: &Vector3<f64>) -> [f64; 2] {
+        match self {
+            Self::Lines(lines) => lines.length_and_distance(cell, at),
+            Self::Triangles(patches) => patches.length_and_distance(cell, at),
+            Self::Rectangles(patches) => patches.length_and_distance(cell, at),
+            Self::Both(rectangles, triangles) => match cell.checked_sub(rectangles.cells.len()) {
+                Some(cell) => triangles.length_and_distance(cell, at),
+                None => rectangles.length_and_distance(cell, at),
+            },
+        }
+    }
 }
 
 impl<const C: usize> Sources<C> {
@@ -79,11 +128,7 @@ impl<const C: usize> Sources<C> {
 
     /// The number of cells.
     pub fn count(&self) -> usize {
-        match &self.cells {
-            Cells::Lines(lines) => lines.segments.len(),
-            Cells::Triangles(patches) => patches.cells.len(),
-            Cells::Rectangles(patches) => patches.cells.len(),
-        }
+        self.cells.count()
     }
 
     /// The displacement at a point of slip by 1 m of a cell, by component.
@@ -91,12 +136,7 @@ impl<const C: usize> Sources<C> {
     /// # Panics
     /// For a cell that does not exist.
     pub fn displacements(&self, cell: usize, at: [f64; 3]) -> [[f64; 3]; C] {
-        let at = Vector3::from(at);
-        let moved = match &self.cells {
-            Cells::Lines(lines) => [lines.displacement(cell, &at); C],
-            Cells::Triangles(patches) => patches.displacements(cell, &at),
-            Cells::Rectangles(patches) => patches.displacements(cell, &at),
-        };
+        let moved = self.cells.displacements(cell, &at.into());
         moved.map(Into::into)
     }
 
@@ -105,12 +145,7 @@ impl<const C: usize> Sources<C> {
     /// # Panics
     /// For a cell that does not exist.
     pub fn stresses(&self, cell: usize, at: [f64; 3]) -> [Matrix3<f64>; C] {
-        let at = Vector3::from(at);
-        match &self.cells {
-            Cells::Lines(lines) => [lines.stress(cell, &at); C],
-            Cells::Triangles(patches) => patches.stresses(cell, &at),
-            Cells::Rectangles(patches) => patches.stresses(cell, &at),
-        }
+        self.cells.stresses(cell, &at.into())
     }
 
     /// The displacement at a point of slip by 1 m of the whole plane; none if the cells are not on one.
@@ -130,11 +165,7 @@ impl<const C: usize> Sources<C> {
         }
         let at = Vector3::from(at);
         for cell in 0..self.count() {
-            let [length, distance] = match &self.cells {
-                Cells::Lines(lines) => lines.length_and_distance(cell, &at),
-                Cells::Triangles(patches) => patches.length_and_distance(cell, &at),
-                Cells::Rectangles(patches) => patches.length_and_distance(cell, &at),
-            };
+            let [length, distance] = self.cells.length_and_distance(cell, &at);
             let least = LEAST * length;
             if distance <= least {
                 return Err(ReceiverError::AtEdge {

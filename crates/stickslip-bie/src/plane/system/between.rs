@@ -3,38 +3,34 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use super::FaultSystem;
+use super::coupling::Coupling;
 use super::placement::Axes;
 use crate::hmatrix::Extent;
-use crate::interaction::{Interaction, Pair, Pairs, Storage};
+use crate::interaction::{Interaction, Pair, Pairs};
 use crate::surface::SurfacePairs;
 use crate::{RectangularDislocation, SurfaceError, SurfaceFault};
 
-/// Forces and compressions on planes due to slip on the surface, and on the surface due to slip on planes.
-#[derive(Debug)]
-pub(crate) struct Between<const C: usize> {
-    pub(super) on_planes: Interaction<C>,
-    pub(super) on_surface: Interaction<C>,
+/// Makes both interactions.
+pub(super) fn between<const C: usize>(
+    system: &FaultSystem<C>,
+    surface: &SurfaceFault<C>,
+) -> Coupling<C> {
+    let storage = surface.storage();
+    Coupling {
+        on_planes: Interaction::new(&OnPlanes::new(system, surface), storage),
+        on_surface: Interaction::new(&OnSurface::new(system, surface), storage),
+    }
 }
 
-impl<const C: usize> Between<C> {
-    pub(super) fn new(system: &FaultSystem<C>, surface: &SurfaceFault<C>) -> Self {
-        let storage = surface.storage();
-        Self {
-            on_planes: Interaction::new(&OnPlanes::new(system, surface), storage),
-            on_surface: Interaction::new(&OnSurface::new(system, surface), storage),
-        }
-    }
-
-    /// Refuses interactions beyond the limit of memory, each by itself.
-    pub(super) fn check(
-        system: &FaultSystem<C>,
-        surface: &SurfaceFault<C>,
-    ) -> Result<(), SurfaceError> {
-        let storage: &Storage = surface.storage();
-        storage.check(&OnPlanes::new(system, surface))?;
-        storage.check(&OnSurface::new(system, surface))?;
-        Ok(())
-    }
+/// Refuses interactions beyond the limit of memory, each by itself.
+pub(super) fn check<const C: usize>(
+    system: &FaultSystem<C>,
+    surface: &SurfaceFault<C>,
+) -> Result<(), SurfaceError> {
+    let storage = surface.storage();
+    storage.check(&OnPlanes::new(system, surface))?;
+    storage.check(&OnSurface::new(system, surface))?;
+    Ok(())
 }
 
 /// The boxes of the cells of planes.

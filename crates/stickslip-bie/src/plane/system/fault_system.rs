@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-use super::between::Between;
+use super::between::between;
 use super::blocks::Blocks;
+use super::coupling::Coupling;
 use super::placement::{Axes, Placement};
 use super::{SystemKernel, SystemNormalKernel, separation};
 use crate::{KernelError, PlaneFault, Rectangles, SurfaceFault};
@@ -63,7 +64,7 @@ pub struct FaultSystem<const C: usize = 2> {
     /// The shear blocks, shared by clones; computed on first use.
     shear: Arc<OnceLock<Arc<Blocks<C, C>>>>,
     normal: Arc<OnceLock<Arc<Blocks<1, C>>>>,
-    pub(super) between: Arc<OnceLock<Arc<Between<C>>>>,
+    pub(super) between: Arc<OnceLock<Arc<Coupling<C>>>>,
 }
 
 impl<const C: usize> FaultSystem<C> {
@@ -246,8 +247,8 @@ impl<const C: usize> FaultSystem<C> {
         }
     }
 
-    fn between(&self, surface: &SurfaceFault<C>) -> Arc<Between<C>> {
-        let made = || Arc::new(Between::new(self, surface));
+    fn between(&self, surface: &SurfaceFault<C>) -> Arc<Coupling<C>> {
+        let made = || Arc::new(between(self, surface));
         Arc::clone(self.between.get_or_init(made))
     }
 

@@ -8,8 +8,8 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 use stickslip_core::compiled;
 use stickslip_solvers::{Matrix, MeshId, Operator};
 
-use super::between::Between;
 use super::blocks::{Blocks, Memory};
+use super::coupling::Coupling;
 use crate::interaction::{Vertices, add_forces, add_forces_at, work};
 use crate::plane::terms::Terms;
 use crate::{CellKernel, PlaneKernel};
@@ -39,7 +39,7 @@ pub struct SystemKernel<const C: usize> {
 #[derive(Clone)]
 struct OfSurface<const C: usize> {
     own: CellKernel<C>,
-    between: Terms<Between<C>, ()>,
+    between: Terms<Coupling<C>, ()>,
 }
 
 impl<const C: usize> Clone for SystemKernel<C> {
@@ -81,7 +81,11 @@ impl<const C: usize> SystemKernel<C> {
     }
 
     /// The same matrix with a surface behind the planes.
-    pub(crate) fn with_surface(self, own: CellKernel<C>, between: Option<Arc<Between<C>>>) -> Self {
+    pub(crate) fn with_surface(
+        self,
+        own: CellKernel<C>,
+        between: Option<Arc<Coupling<C>>>,
+    ) -> Self {
         let between = between.map_or_else(Terms::none, |between| Terms::of(between, ()));
         let surface = Some(OfSurface { own, between });
         Self { surface, ..self }
@@ -348,7 +352,7 @@ impl<const C: usize> From<&SystemKernel<C>> for DMatrix<f64> {
             }
             for term in between.iter() {
                 for (i, j) in pairs(0..first, first..count) {
-                    let Between {
+                    let Coupling {
                         on_planes,
                         on_surface,
                     } = &*term.interaction;

@@ -4,6 +4,7 @@ mod assembly;
 mod between;
 mod blocks;
 mod contacts;
+mod coupling;
 mod fault_system;
 mod kernel;
 mod loading;

@@ -8,8 +8,8 @@ use nalgebra::SVector;
 use stickslip_core::compiled;
 use stickslip_solvers::{MeshId, NormalStressChange};
 
-use super::between::Between;
 use super::blocks::{Blocks, Memory};
+use super::coupling::Coupling;
 use crate::interaction::add_compressions;
 use crate::{CellNormalKernel, PlaneNormalKernel};
 
@@ -24,7 +24,7 @@ pub struct SystemNormalKernel<const C: usize> {
     planes: Vec<PlaneNormalKernel<C>>,
     blocks: Arc<Blocks<1, C>>,
     memory: Mutex<Memory<1>>,
-    surface: Option<(CellNormalKernel<C>, Arc<Between<C>>)>,
+    surface: Option<(CellNormalKernel<C>, Arc<Coupling<C>>)>,
     mesh: MeshId,
 }
 
@@ -45,7 +45,7 @@ impl<const C: usize> SystemNormalKernel<C> {
     }
 
     /// The same with a surface behind the planes.
-    pub(crate) fn with_surface(self, own: CellNormalKernel<C>, between: Arc<Between<C>>) -> Self {
+    pub(crate) fn with_surface(self, own: CellNormalKernel<C>, between: Arc<Coupling<C>>) -> Self {
         let surface = Some((own, between));
         Self { surface, ..self }
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{SVector, Vector3};
 
 use super::FaultSystem;
-use super::between::Between;
+use super::between;
 use crate::surface::SurfaceSection;
 use crate::{KernelError, SurfaceError, SurfaceFault, Triangles};
 
@@ -83,7 +83,7 @@ impl<const C: usize> FaultSystem<C> {
         for plane in 0..self.planes.len() {
             self.check_apart(plane, surface.cells())?;
         }
-        Between::check(&self, &surface)?;
+        between::check(&self, &surface)?;
         self.surface = Some(surface);
         self.between = Arc::default();
         Ok(self)

@@ -43,9 +43,9 @@ use crate::{FileError, Snapshot};
 ///     .with_names(["srfst_fn+08", "srfst_fn-08"])
 ///     .with_creep(Vector1::new(bp1::PLATE_RATE))?
 ///     .create(&cycle.snapshot())?;
-/// cycle.run(&Steps::adaptive(1e-4).until(1e9), |at| files.record(&at))?;
+/// cycle.run(&Steps::adaptive(1e-4).until(100.0), |at| files.record(&at))?;
 /// files.finish()?;
-/// // The fault creeps everywhere at the plate rate: each side moves by one half.
+/// // At first the fault creeps everywhere at the plate rate: each side moves by one half.
 /// let text = std::fs::read_to_string(folder.join("srfst_fn+08"))?;
 /// let row: Vec<f64> = text.lines().last().ok_or("no row")?.split(' ').map(str::parse).collect::<Result<_, _>>()?;
 /// assert!((row[2] / (0.5 * bp1::PLATE_RATE * row[0]) - 1.0).abs() < 0.1);

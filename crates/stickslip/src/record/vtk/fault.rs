@@ -26,10 +26,10 @@ use crate::{ContactView, FileError, MeshMismatch, SceneError, Snapshot};
 ///
 /// ```
 /// use stickslip::bie::{FaultGeometry, Medium, SurfaceFault, Triangles};
-/// use stickslip::friction::RegularizedDieterichRuina;
+/// use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
 /// use stickslip::nalgebra::Vector1;
 /// use stickslip::record::VtkFaultSeries;
-/// use stickslip::state::Dieterich;
+/// use stickslip::state::{Dieterich, LogTheta};
 /// use stickslip::{BoundaryPart, Contact, RungeKutta, Scene, Steps};
 ///
 /// // A square of 1 km that dips 45 degrees, of two triangles, at the plate rate.
@@ -41,9 +41,12 @@ use crate::{ContactView, FileError, MeshMismatch, SceneError, Snapshot};
 ///     a: 0.01, b: 0.015, reference_friction: 0.6, reference_velocity: 1e-6, slip_distance: 0.01,
 /// });
 /// let part = BoundaryPart::from(FaultGeometry::cells(&fault));
+/// // Steady, so that friction and radiation damping bear the shear stress.
+/// let state = LogTheta((0.01_f64 / 1e-9).ln());
+/// let stress = 50e6 * friction.coefficient(1e-9, state) + 0.5 * 32.04e9 / 3464.0 * 1e-9;
 /// let contact = Contact::new(part, friction, 50e6)
-///     .with_state(Dieterich { slip_distance: 0.01 }, stickslip::state::LogTheta((0.01_f64 / 1e-9).ln()))
-///     .with_shear_stress(vec![Vector1::new(30e6); 2]);
+///     .with_state(Dieterich { slip_distance: 0.01 }, state)
+///     .with_shear_stress(vec![Vector1::new(stress); 2]);
 /// let scene = Scene::of_fault(&fault, plate)?.with_contact(contact).with_velocity(vec![plate; 2]);
 /// let mut run = RungeKutta::new(scene)?;
 /// let folder = std::env::temp_dir().join("stickslip-vtk-fault-example");

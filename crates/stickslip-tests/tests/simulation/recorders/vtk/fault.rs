@@ -5,7 +5,7 @@ use std::fs;
 use stickslip::bie::{
     FaultGeometry, Medium, Mode, SegmentFault, Segments, SurfaceFault, Triangles,
 };
-use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
 use stickslip::nalgebra::{SVector, Vector3};
 use stickslip::record::VtkFaultSeries;
 use stickslip::state::{Dieterich, LogTheta};
@@ -32,14 +32,18 @@ fn scene<const C: usize, G: FaultGeometry<C>>(
 ) -> Outcome<Scene<G::Kernel, C>> {
     let part = BoundaryPart::from(FaultGeometry::cells(fault));
     let count = part.points.len();
+    // Steady at the rate.
+    let state = LogTheta((0.01 / rate.norm()).ln());
+    let damping = 0.5 * ROCK.shear_modulus / ROCK.shear_wave_speed;
+    let stress = 50e6 * FRICTION.coefficient(rate.norm(), state) + damping * rate.norm();
     let contact = Contact::new(part, FRICTION, 50e6)
         .with_state(
             Dieterich {
                 slip_distance: 0.01,
             },
-            LogTheta((0.01_f64 / 1e-9).ln()),
+            state,
         )
-        .with_shear_stress(vec![rate.normalize() * 28e6; count]);
+        .with_shear_stress(vec![rate.normalize() * stress; count]);
     Ok(Scene::of_fault(fault, rate)?
         .with_contact(contact)
         .with_velocity(vec![rate; count]))
