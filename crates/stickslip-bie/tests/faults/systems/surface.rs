@@ -227,7 +227,8 @@ proptest! {
         for cell in 0..6 {
             let pair = forces[1][6 + 2 * cell] + forces[1][7 + 2 * cell];
             let error = (forces[0][6 + cell] - pair).norm();
-            prop_assert!(error <= 1e-3 * largest, "{cell}: {error:e} of {largest:e}");
+            // Of second order in cells of 100 m, 2 km away at least.
+            prop_assert!(error <= 1e-2 * largest, "{cell}: {error:e} of {largest:e}");
         }
     }
 }
