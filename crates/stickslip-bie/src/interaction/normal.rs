@@ -8,7 +8,7 @@ use stickslip_solvers::{MeshId, NormalStressChange};
 use super::{Interaction, add_compressions};
 use crate::surface::Averaging;
 
-/// The least bend that is told as the cause of a failure \[degrees\].
+/// Smaller bends are rounding of coordinates, and explain no failure \[degrees\].
 const BEND: f64 = 1e-3;
 
 /// The change of normal stress on the cells of a fault of any shape per slip on all of them [Pa/m], compression positive:

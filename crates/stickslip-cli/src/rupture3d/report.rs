@@ -15,7 +15,7 @@ use crate::probes::{Probe, Probes};
 /// The slip rate at the arrival of the rupture [m/s].
 const ARRIVED: (f64, f64) = (1e-3, 1e-3);
 
-/// What a run has left.
+/// The results of a run.
 pub(super) struct Outcome {
     /// Time, and slip, slip rate and shear stress along strike and down dip, across the fault.
     pub stations: Probes<3, 7>,
