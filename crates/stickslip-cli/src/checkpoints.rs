@@ -53,6 +53,16 @@ impl Checkpoints {
         self.restart.as_deref()
     }
 
+    /// The file to restart from, of a run with these tags.
+    pub fn restarted(&self, tags: &Tags) -> Option<Checkpoint> {
+        self.restart.as_deref().map(|path| tagged(path, tags))
+    }
+
+    /// The file to write, for a run with these tags.
+    pub fn kept(&self, tags: &Tags) -> Option<Checkpoint> {
+        self.checkpoint.as_deref().map(|path| tagged(path, tags))
+    }
+
     /// Takes the steps of a plan and records them, from the start or from a checkpoint; `plan` gives the remaining
     /// steps after so many.
     pub fn take<const C: usize>(
@@ -62,18 +72,12 @@ impl Checkpoints {
         tags: &Tags,
         plan: impl Fn(usize) -> Result<Steps, Problem>,
     ) -> Result<Record, Problem> {
-        let at = |path: &PathBuf| {
-            let tags = tags.iter();
-            tags.fold(Checkpoint::at(path), |file, (name, value)| {
-                file.tagged(name, value)
-            })
-        };
-        let mut record = match self.restart.as_ref().map(at) {
+        let mut record = match self.restarted(tags) {
             Some(file) => file.restore::<Record, C>(simulation)?.until(recording.end),
             None => Record::new(recording, &simulation.snapshot())?,
         };
         let mut rest = plan(record.planned)?;
-        let kept = self.checkpoint.as_ref().map(at);
+        let kept = self.kept(tags);
         let every = self.every();
         // A controller that plans ahead sees the whole run; a step that is split counts as one between pieces.
         let (piece, within) = if recording.adaptive {
@@ -107,4 +111,11 @@ impl Checkpoints {
         record.finish(&simulation.snapshot());
         Ok(record)
     }
+}
+
+fn tagged(path: &Path, tags: &Tags) -> Checkpoint {
+    tags.iter()
+        .fold(Checkpoint::at(path), |file, (name, value)| {
+            file.tagged(name, value)
+        })
 }

@@ -26,6 +26,7 @@ pub mod injection;
 pub mod interrupt;
 pub mod laws;
 pub mod layer;
+pub mod memory;
 pub mod onsets;
 pub mod plot;
 pub mod probes;

@@ -117,6 +117,16 @@ pub enum FemError {
         /// A lower bound for their number, saturating.
         count: u64,
     },
+    /// More vertices than a mesh may have.
+    #[error(
+        "the mesh would have {count} vertices or more, above the limit of {most}: take larger cells"
+    )]
+    AboveLimit {
+        /// A lower bound for their number.
+        count: u64,
+        /// The limit.
+        most: u32,
+    },
     /// A cell size is illegal: it must be finite, and not so small that rounding of coordinates changes shapes.
     #[error("size {value:?} m of cells at {at:?} is not finite or below {least:?} m")]
     CellSize {

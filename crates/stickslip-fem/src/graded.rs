@@ -21,12 +21,17 @@ fn grade<const D: usize>(
     mut hierarchy: Hierarchy<D>,
     size: &impl Fn(&SVector<f64, D>) -> f64,
     onto: Option<Onto<'_, D>>,
+    most: u32,
 ) -> Result<Hierarchy<D>, FemError> {
     let mut grading = Grading::new(&hierarchy, size, onto)?;
     for _ in 0..ROUNDS {
         let worst = grading.excess.iter().copied().fold(0.0, f64::max);
         let last = hierarchy.finest().vertex_count();
         let growth = grading.points.len() as f64 / last as f64;
+        if grading.points.len() > most as usize {
+            let count = grading.points.len() as u64;
+            return Err(FemError::AboveLimit { count, most });
+        }
         let deepest = grading.generations.iter().copied().max().unwrap_or(0);
         let full = growth >= GROWTH || usize::from(deepest) >= HALVINGS * D;
         if full || worst <= 1.0 && growth > 1.0 {
@@ -35,7 +40,7 @@ fn grade<const D: usize>(
         if worst <= 1.0 {
             return Ok(hierarchy);
         }
-        grading.foretell()?;
+        grading.foretell(most)?;
         grading.round((0.5 * worst).max(1.0))?;
     }
     Err(FemError::SizeNotReached { rounds: ROUNDS })
@@ -57,7 +62,30 @@ impl<const D: usize> Hierarchy<D> {
     /// [`FemError::CellSize`] if a size is not finite or is below 2^-32 of the largest coordinate,
     /// [`FemError::TooMany`] if 32 bits do not number the mesh; this is predicted from a coarser one.
     pub fn graded(self, size: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self, FemError> {
-        grade(self, &size, None)
+        grade(self, &size, None, u32::MAX)
+    }
+
+    /// As [`Hierarchy::graded`], unless the finest level would have more than so many vertices. That is told from coarser
+    /// levels: no memory is taken for a mesh that is refused.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::AboveLimit`] with a lower bound of their number, beside those of [`Hierarchy::graded`].
+    ///
+    /// ```
+    /// use stickslip_fem::{FemError, Hierarchy, P1};
+    ///
+    /// let coarse = Hierarchy::new(P1::<2>::grid([1.0, 1.0], [2, 2])?.mesh().clone());
+    /// let refused = coarse.graded_within(|_| 1e-4, 1_000_000);
+    /// assert!(matches!(refused, Err(FemError::AboveLimit { most: 1_000_000, .. })));
+    /// # Ok::<(), FemError>(())
+    /// ```
+    pub fn graded_within(
+        self,
+        size: impl Fn(&SVector<f64, D>) -> f64,
+        most: u32,
+    ) -> Result<Self, FemError> {
+        grade(self, &size, None, most)
     }
 
     /// As [`Hierarchy::graded`], with new vertices on a named part of the boundary moved by `onto`, as by
@@ -72,7 +100,7 @@ impl<const D: usize> Hierarchy<D> {
         part: &str,
         onto: impl Fn(&SVector<f64, D>) -> SVector<f64, D>,
     ) -> Result<Self, FemError> {
-        grade(self, &size, Some((part, &onto)))
+        grade(self, &size, Some((part, &onto)), u32::MAX)
     }
 }
 
@@ -96,6 +124,17 @@ impl<const D: usize> P1<D> {
     pub fn graded(self, size: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self, FemError> {
         Ok(Self {
             hierarchy: self.hierarchy.graded(size)?,
+        })
+    }
+
+    /// As [`P1::graded`], unless it would have more than so many vertices: [`Hierarchy::graded_within`].
+    pub fn graded_within(
+        self,
+        size: impl Fn(&SVector<f64, D>) -> f64,
+        most: u32,
+    ) -> Result<Self, FemError> {
+        Ok(Self {
+            hierarchy: self.hierarchy.graded_within(size, most)?,
         })
     }
 

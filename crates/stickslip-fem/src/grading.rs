@@ -226,9 +226,9 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         Ok(middle)
     }
 
-    /// Refuses a mesh whose numbering would exceed 32 bits. Of simplices of diameter h the regular one has most volume,
+    /// Refuses a mesh of more vertices, or one whose numbering would exceed 32 bits. Of simplices of diameter h the regular one has most volume,
     /// and large meshes have about two triangles or six tetrahedra per vertex.
-    pub(crate) fn foretell(&self) -> Result<(), FemError> {
+    pub(crate) fn foretell(&self, most: u32) -> Result<(), FemError> {
         if self.cells.len() < FORETELLING {
             return Ok(());
         }
@@ -248,6 +248,12 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         let vertices = (cells / cells_a_vertex) as u64;
         if vertices > u64::from(u32::MAX) {
             return Err(FemError::too_many("vertices", vertices));
+        }
+        if vertices > u64::from(most) {
+            return Err(FemError::AboveLimit {
+                count: vertices,
+                most,
+            });
         }
         Ok(())
     }

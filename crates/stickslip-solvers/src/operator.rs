@@ -66,6 +66,13 @@ pub trait Operator<const C: usize>: Matrix<C> + Sized + 'static {
         type_name::<Self>()
     }
 
+    /// The factor of an operator that is a multiple of another one by its construction, `self = factor other`. None, as by
+    /// default, unless the format knows. A body whose viscosity is a multiple of its stiffness has the forces of both by one
+    /// product in explicit steps.
+    fn multiple_of(&self, _other: &Self) -> Option<f64> {
+        None
+    }
+
     /// Changes the operator to other unknowns, `T^T A T`. False, as by default, if its format has no local axes or no
     /// links; the operator then stays as it is.
     fn change_basis(&mut self, basis: &Basis<C>) -> bool {

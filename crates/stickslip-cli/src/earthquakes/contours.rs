@@ -9,9 +9,6 @@ use stickslip::record::{Rupture, RuptureTimes};
 use super::{Failed, YEAR};
 use crate::plot::{self, Panel, Points, RGBColor, shade};
 
-/// The largest number of contours of an event.
-const MOST: usize = 8;
-
 /// Draws the fronts of the first event, and of that of the later ones which ruptures most cells.
 pub(super) fn draw(
     path: &Path,
@@ -88,7 +85,7 @@ fn is_reached(time: f64) -> bool {
 fn fronts(cells: &Rectangles, event: &Rupture, metres: f64) -> Vec<Front> {
     let times = event.times.iter().copied().filter(|time| is_reached(*time));
     let end = times.fold(0.0, f64::max);
-    let step = interval(end);
+    let step = plot::interval(end);
     let count = (end / step) as usize;
     let numbers = (1..=count).filter(|_| step > 0.0);
     numbers
@@ -98,17 +95,6 @@ fn fronts(cells: &Rectangles, event: &Rupture, metres: f64) -> Vec<Front> {
             curves: contour(cells, &event.times, n as f64 * step, metres),
         })
         .collect()
-}
-
-/// The least of 1, 2 or 5 times a power of ten that is in `end` at most so many times.
-pub(super) fn interval(end: f64) -> f64 {
-    let least = end / (MOST as f64 + 1.0);
-    let power = 10_f64.powf(least.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
-    steps
-        .into_iter()
-        .find(|step| *step >= least)
-        .unwrap_or(least)
 }
 
 /// The contour of a time between the centres of cells that rupture, in metres of so many.
@@ -202,12 +188,5 @@ mod tests {
         assert_eq!(curves.len(), 1);
         assert!(curves[0].iter().all(|(x, _)| (x + 4.0).abs() < 1e-12));
         Ok(())
-    }
-
-    #[test]
-    fn fronts_are_at_round_times() {
-        for (end, step) in [(30.0, 5.0), (0.7, 0.1), (17.0, 2.0), (100.0, 20.0)] {
-            assert!((interval(end) / step - 1.0).abs() < 1e-12, "{end}");
-        }
     }
 }

@@ -2,6 +2,7 @@
 
 mod axis;
 mod canvas;
+mod contours;
 mod curve;
 mod key;
 mod label;
@@ -20,6 +21,7 @@ use std::path::Path;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+pub use contours::{contours, interval};
 pub use map::Map;
 pub use panel::Panel;
 pub use patch_sheet::PatchSheet;

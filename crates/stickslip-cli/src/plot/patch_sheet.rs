@@ -12,18 +12,26 @@ pub struct PatchSheet<'a> {
     pub name: &'a str,
     /// Their colours.
     pub colors: Colors,
-    /// Two pictures a row, from top to bottom.
+    /// One or two pictures a row, from top to bottom; one is as wide as two.
     pub rows: Vec<[Option<Patches<'a>>; 2]>,
 }
 
-/// The width of a picture, and the height of its title.
-const WIDTH: u32 = 680;
+/// The width of a row, and the height of titles.
+const WIDTH: u32 = 1360;
 const TITLE: u32 = 40;
 
 impl PatchSheet<'_> {
+    /// Pictures in a row.
+    fn columns(&self) -> u32 {
+        1 + u32::from(self.rows.iter().any(|row| row[1].is_some()))
+    }
+
     fn heights(&self) -> Vec<u32> {
         let height = |row: &[Option<Patches<'_>>; 2]| {
-            let heights = row.iter().flatten().map(|patches| patches.height(WIDTH));
+            let heights = row
+                .iter()
+                .flatten()
+                .map(|patches| patches.height(WIDTH / self.columns()));
             heights.max().unwrap_or(0) + TITLE
         };
         self.rows.iter().map(height).collect()
@@ -33,16 +41,20 @@ impl PatchSheet<'_> {
 impl Draw for PatchSheet<'_> {
     fn size(&self) -> (u32, u32) {
         let height = self.heights().iter().sum::<u32>().max(480);
-        (2 * WIDTH + key::WIDTH, height)
+        (WIDTH + key::WIDTH, height)
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, _pixels: bool) -> Drawn<DB> {
-        let (fields, beside) = area.split_horizontally(2 * WIDTH * SCALE);
+        let (fields, beside) = area.split_horizontally(WIDTH * SCALE);
         let mut rest = fields;
         for (row, height) in self.rows.iter().zip(self.heights()) {
             let (own, below) = rest.split_vertically(height * SCALE);
             rest = below;
-            for (area, patches) in own.split_evenly((1, 2)).iter().zip(row) {
+            for (area, patches) in own
+                .split_evenly((1, self.columns() as usize))
+                .iter()
+                .zip(row)
+            {
                 let Some(patches) = patches else {
                     continue;
                 };

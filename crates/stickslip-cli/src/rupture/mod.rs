@@ -28,7 +28,7 @@ mod problem;
 mod report;
 mod run;
 
-pub use problem::{Law, aging_of, initial_of, smooth};
+pub use problem::{Law, aging_of, drainage_of, flash_of, heated, initial_of, smooth, start};
 pub use report::report;
 pub use run::run;
 

@@ -78,21 +78,30 @@ impl Law {
             return Ok(scene.with_contact(contact.with_free_normal().with_shear_stress(stress)));
         }
         let laws = fault.map(|x| flash(x[0]));
-        let states = fault.map(|x| start(self, x[0]));
+        let states = fault.map(|x| start(self, &flash(x[0])));
         let evolutions: Vec<_> = laws.iter().map(StrongRateWeakening::evolution).collect();
         let mut contact = Contact::per_vertex(fault, laws, normal)
             .with_state_per_vertex(evolutions, states)
             .with_free_normal()
             .with_shear_stress(stress);
         if self == Self::Pressurized {
-            contact = contact.with_field(heated(fault)?);
+            let drainage = fault.map(|x| drainage_of(taper(x[0])));
+            contact = contact.with_field(heated(drainage)?);
         }
         Ok(scene.with_contact(contact))
     }
 }
 
-/// The shear zone of TPV105: its fluid drains faster beyond the fault.
-fn heated(fault: &Trace<2>) -> Result<ThermalPressurization, ThermalError> {
+/// The hydraulic diffusivity of TPV105 where so much of the fault weakens [m^2/s].
+pub fn drainage_of(share: f64) -> f64 {
+    4e-4 + (1.0 - share)
+}
+
+/// The shear zone of TPV105, of vertices with these hydraulic diffusivities [m^2/s].
+///
+/// # Errors
+/// None of these parameters is out of range.
+pub fn heated(drainage: Vec<f64>) -> Result<ThermalPressurization, ThermalError> {
     let zone = ShearZone {
         half_width: 0.02.into(),
         // Heat comes from the whole slip rate, twice that of the body: half the capacity has the same temperature.
@@ -100,12 +109,12 @@ fn heated(fault: &Trace<2>) -> Result<ThermalPressurization, ThermalError> {
         thermal_diffusivity: 1e-6.into(),
         initial_temperature: 483.15.into(),
     };
-    let drainage: Vec<f64> = fault.map(|x| 4e-4 + (1.0 - taper(x[0])));
+    let vertices = drainage.len();
     let fluid = PoreFluid {
         hydraulic_diffusivity: drainage.into(),
         pressurization_coefficient: 1e5.into(),
     };
-    ThermalPressurization::new(fault.vertices().len(), zone, fluid)
+    ThermalPressurization::new(vertices, zone, fluid)
 }
 
 /// 1 on the velocity-weakening fault, 0 beyond, smooth between: 15 km and 3 km wide.
@@ -158,7 +167,12 @@ pub fn initial_of(law: &RegularizedDieterichRuina) -> f64 {
 
 /// The friction law of TPV103 and TPV105 at a position \[m\].
 fn flash(x: f64) -> StrongRateWeakening {
-    let beyond = 1.0 - taper(x);
+    flash_of(taper(x))
+}
+
+/// The friction law of TPV103, TPV104 and TPV105 where so much of the fault weakens.
+pub fn flash_of(share: f64) -> StrongRateWeakening {
+    let beyond = 1.0 - share;
     StrongRateWeakening {
         a: 0.01 + 0.01 * beyond,
         b: 0.014,
@@ -170,9 +184,9 @@ fn flash(x: f64) -> StrongRateWeakening {
     }
 }
 
-/// The state at a position for which friction balances the initial shear stress.
-fn start(law: Law, x: f64) -> Psi {
-    flash(x).state_of_friction(law.shear() / law.normal(), law.initial_rate())
+/// The state for which friction balances the initial shear stress.
+pub fn start(law: Law, friction: &StrongRateWeakening) -> Psi {
+    friction.state_of_friction(law.shear() / law.normal(), law.initial_rate())
 }
 
 #[cfg(test)]
@@ -185,8 +199,8 @@ mod tests {
     fn the_faults_start_in_balance() {
         assert!((initial(0.0) - 1.606_238_999_213_454e9_f64.ln()).abs() < 1e-12);
         let strong = Law::StrongWeakening;
-        assert!((start(strong, 0.0).0 - 0.563_591_842_633).abs() < 1e-11);
-        assert!((start(strong, 20e3).0 - 0.793_850_351_932).abs() < 1e-11);
+        assert!((start(strong, &flash(0.0)).0 - 0.563_591_842_633).abs() < 1e-11);
+        assert!((start(strong, &flash(20e3)).0 - 0.793_850_351_932).abs() < 1e-11);
         for x in [0.0, 15.5e3, 17e3, 20e3] {
             let (law, ratio) = (aging(x), 0.5 * Law::Aging.initial_rate());
             let state = (law.reference_velocity * initial(x).exp() / law.slip_distance).ln();
@@ -195,7 +209,8 @@ mod tests {
             let shear = law.a * argument.asinh() * Law::Aging.normal();
             assert!((shear / Law::Aging.shear() - 1.0).abs() < 1e-12, "{x}");
             for strong in [Law::StrongWeakening, Law::Pressurized] {
-                let friction = flash(x).coefficient(strong.initial_rate(), start(strong, x));
+                let friction =
+                    flash(x).coefficient(strong.initial_rate(), start(strong, &flash(x)));
                 let shear = friction * strong.normal();
                 assert!((shear / strong.shear() - 1.0).abs() < 1e-12, "{x}");
             }

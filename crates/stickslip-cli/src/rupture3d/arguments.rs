@@ -1,8 +1,12 @@
 //! The command line of a rupture in space.
 
-use clap::{Parser, ValueEnum};
+use std::path::PathBuf;
 
-use crate::cli::{non_negative, positive};
+use clap::Parser;
+
+use super::Benchmark;
+use crate::checkpoints::{Checkpoints, Tags};
+use crate::cli::{finite, non_negative, positive};
 use crate::output::Files;
 
 /// A dynamic rupture of a vertical strike-slip fault in space, in explicit steps without a matrix
@@ -20,102 +24,61 @@ pub struct Arguments {
     /// The rock beyond the fault, on all sides [m]
     #[arg(long, value_name = "METRES", default_value_t = 15e3, value_parser = positive)]
     pub margin: f64,
+    /// A Gmsh file of the rock in place of --cell, --growth and --margin: a box with the fault at y = 0, the free surface
+    /// at z = 0 and x along strike from the middle of the fault [m]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["cell", "growth", "margin"])]
+    pub mesh: Option<PathBuf>,
+    /// The relaxation time of Kelvin-Voigt viscosity, as a share of the time in which a pressure wave crosses the
+    /// longest edge at the fault
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = non_negative)]
+    pub damping: f64,
     /// The end of the run [s]
     #[arg(long, value_name = "TIME", default_value_t = 12.0, value_parser = positive)]
     pub until: f64,
+    /// Record another station on the fault, at a distance along strike and a depth [m]; as often as wanted
+    #[arg(long, value_name = "X,DEPTH", value_parser = place, allow_hyphen_values = true)]
+    pub station: Vec<[f64; 2]>,
+    /// Write every K-th step as VTU files, 0 for none
+    #[arg(
+        long,
+        value_name = "K",
+        default_value_t = 0,
+        conflicts_with = "restart"
+    )]
+    pub vtu_every: usize,
+    /// Checkpoints and restarts.
+    #[command(flatten)]
+    pub checkpoints: Checkpoints,
     /// The folder and the digits of the files.
     #[command(flatten)]
     pub files: Files,
 }
 
-/// Benchmarks by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Benchmark {
-    /// Slip weakening below a free surface, with two patches of other stress
-    Tpv5,
-    /// Rate and state with the aging law in a whole space
-    Tpv101,
-    /// The same below a free surface
-    Tpv102,
+impl Arguments {
+    /// The places of all stations \[m\].
+    pub(super) fn stations(&self) -> Vec<[f64; 2]> {
+        let own = self.problem.stations().into_iter();
+        own.chain(self.station.iter().copied()).collect()
+    }
+
+    /// What identifies this run in a checkpoint.
+    pub(super) fn tags(&self) -> Tags {
+        let stations = format!("{:?}", self.station);
+        [
+            ("problem", self.problem.name().to_owned()),
+            ("end", self.until.to_string()),
+            ("damping", self.damping.to_string()),
+            ("stations", stations),
+        ]
+        .map(|(name, value)| (name.to_owned(), value))
+        .to_vec()
+    }
 }
 
-impl Benchmark {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tpv5 => "TPV5",
-            Self::Tpv101 => "TPV101",
-            Self::Tpv102 => "TPV102",
-        }
-    }
-
-    /// The depth of the middle of the fault in the body \[m\].
-    pub fn middle(self) -> f64 {
-        match self {
-            Self::Tpv101 => 0.0,
-            Self::Tpv5 | Self::Tpv102 => 7.5e3,
-        }
-    }
-
-    /// The largest distance along strike and the largest depth in the body that slips \[m\].
-    pub fn extent(self) -> [f64; 2] {
-        match self {
-            Self::Tpv5 => [15e3, 15e3],
-            Self::Tpv101 => [18e3, 10.5e3],
-            Self::Tpv102 => [18e3, 18e3],
-        }
-    }
-
-    /// Whether the rupture is the same on both sides of its middle along strike, so that one of them is computed.
-    pub fn is_even(self) -> bool {
-        self != Self::Tpv5
-    }
-
-    /// Stations on the fault: along strike and depth, in TPV101 from the middle \[m\].
-    pub fn stations(self) -> Vec<[f64; 2]> {
-        match self {
-            Self::Tpv5 => [
-                [0.0, 7.5e3],
-                [-2e3, 7.5e3],
-                [2e3, 7.5e3],
-                [-2e3, 5.5e3],
-                [2e3, 5.5e3],
-                [0.0, 0.0],
-                [0.0, 3e3],
-                [0.0, 12e3],
-                [-4.5e3, 7.5e3],
-                [4.5e3, 7.5e3],
-                [-7.5e3, 7.5e3],
-                [7.5e3, 7.5e3],
-                [-12e3, 7.5e3],
-                [12e3, 7.5e3],
-            ]
-            .to_vec(),
-            Self::Tpv101 => [
-                [0.0, 0.0],
-                [0.0, 3e3],
-                [0.0, 6e3],
-                [4.5e3, 0.0],
-                [9e3, 0.0],
-                [12e3, 0.0],
-                [15e3, 0.0],
-            ]
-            .to_vec(),
-            Self::Tpv102 => [
-                [0.0, 0.0],
-                [0.0, 3e3],
-                [0.0, 7.5e3],
-                [0.0, 12e3],
-                [4.5e3, 0.0],
-                [4.5e3, 7.5e3],
-                [9e3, 0.0],
-                [9e3, 7.5e3],
-                [12e3, 0.0],
-                [12e3, 3e3],
-                [12e3, 7.5e3],
-                [12e3, 12e3],
-            ]
-            .to_vec(),
-        }
-    }
+/// Two numbers with a comma between.
+fn place(text: &str) -> Result<[f64; 2], String> {
+    let (x, depth) = text
+        .split_once(',')
+        .ok_or("two numbers with a comma between are needed")?;
+    Ok([finite(x.trim())?, finite(depth.trim())?])
 }

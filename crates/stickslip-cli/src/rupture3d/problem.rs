@@ -2,146 +2,276 @@
 
 use std::f64::consts::PI;
 
-use stickslip::fem::Trace;
+use stickslip::fem::{FemError, P1, Trace, traction};
+use stickslip::fields::ThermalError;
 use stickslip::friction::LinearWeakening;
 use stickslip::nalgebra::Vector3;
 use stickslip::state::{LogTheta, SlipWeakening, Weakening};
 use stickslip::{Contact, Operator, Scene};
 
 use super::Benchmark;
-use crate::rupture::{Law, aging_of, initial_of, smooth};
+use super::averages::{Patch, averages};
+use crate::rupture::{Law, aging_of, drainage_of, flash_of, heated, initial_of, smooth, start};
 
-/// Half the length of a side of the squares of TPV5 \[m\].
-const SQUARE: f64 = 1.5e3;
+/// The density \[kg/m^3\], and the speeds of pressure and shear waves [m/s].
+pub(super) const ROCK: [f64; 3] = [2670.0, 6000.0, 3464.0];
+
+/// The static and dynamic friction of TPV5, and half the slip over which it weakens \[m\].
+const WEAKENING: [f64; 3] = [0.677, 0.525, 0.2];
 
 impl Benchmark {
-    /// Normal stress \[Pa\].
-    pub fn normal(self) -> f64 {
-        Law::Aging.normal()
+    /// The fault of the plane with the same friction, if it has a state of rate and state.
+    fn law(self) -> Option<Law> {
+        match self {
+            Self::Tpv5 => None,
+            Self::Tpv101 | Self::Tpv102 => Some(Law::Aging),
+            Self::Tpv104 => Some(Law::StrongWeakening),
+            Self::Tpv105 => Some(Law::Pressurized),
+        }
+    }
+
+    /// The normal stress at a depth, less the initial pore pressure \[Pa\].
+    fn normal(self, depth: f64) -> f64 {
+        match self {
+            Self::Tpv105 => (9.8 * 1670.0 * depth).min(Law::Pressurized.normal()),
+            _ => Law::Aging.normal(),
+        }
     }
 
     /// The initial velocity of a half [m/s].
-    pub fn initial_rate(self) -> f64 {
-        match self {
-            Self::Tpv5 => 0.0,
-            Self::Tpv101 | Self::Tpv102 => Law::Aging.initial_rate(),
-        }
-    }
-
-    /// The initial shear stress of a vertex, the mean over a square of its spacing about it \[Pa\].
-    pub fn shear(self, [x, depth]: [f64; 2], spacing: f64) -> f64 {
-        if self != Self::Tpv5 {
-            return Law::Aging.shear();
-        }
-        let squares = [(0.0, 81.6e6), (-7.5e3, 78e6), (7.5e3, 62e6)];
-        let mean = squares.map(|(middle, stress)| {
-            let share = covered(x - middle, spacing) * covered(depth - 7.5e3, spacing);
-            share * (stress - 70e6)
-        });
-        70e6 + mean.iter().sum::<f64>()
+    pub(super) fn initial_rate(self) -> f64 {
+        self.law().map_or(0.0, Law::initial_rate)
     }
 
     /// The fully grown shear stress that nucleates the rupture \[Pa\].
-    pub fn nucleation(self, [x, depth]: [f64; 2]) -> f64 {
-        match self {
-            Self::Tpv5 => 0.0,
-            Self::Tpv101 | Self::Tpv102 => Law::Aging.nucleation(x.hypot(depth - self.middle())),
-        }
+    pub(super) fn nucleation(self, [x, depth]: [f64; 2]) -> f64 {
+        let [along, down] = self.hypocenter();
+        let distance = (x - along).hypot(depth - down);
+        self.law().map_or(0.0, |law| law.nucleation(distance))
     }
 
-    /// The length at the front over which friction weakens, in an infinite fault at rest \[m\]:
-    /// `G L/((1 - nu) b sigma_n)`, or `9 pi/32 G D_c/(tau_s - tau_d)` of slip weakening (S. Day et al., J. Geophys. Res. 110
-    /// (2005)).
-    pub fn weakening_length(self) -> f64 {
-        let modulus = 2670.0 * 3464.0_f64.powi(2);
-        match self {
-            Self::Tpv5 => 9.0 * PI / 32.0 * modulus * 0.4 / ((0.677 - 0.525) * self.normal()),
-            Self::Tpv101 | Self::Tpv102 => {
-                // Poisson's ratio of the wave speeds.
-                let ratio = (3464.0_f64 / 6000.0).powi(2);
-                let poisson_ratio = (1.0 - 2.0 * ratio) / (2.0 - 2.0 * ratio);
-                let law = aging_of(1.0);
-                2.0 * modulus * law.slip_distance / ((1.0 - poisson_ratio) * law.b * self.normal())
-            }
-        }
+    /// The share of the friction of a place that weakens, with tapers at the rim.
+    fn share(self, [x, depth]: [f64; 2]) -> f64 {
+        let down = match self {
+            Self::Tpv101 => smooth(depth, 7.5e3),
+            Self::Tpv105 => smooth(depth - 9e3, 6e3),
+            _ => smooth(depth - 7.5e3, 7.5e3),
+        };
+        smooth(x, 15e3) * down
     }
 
-    /// A scene with the fault, whose vertices have a spacing \[m\].
-    pub fn on<Op: Operator<3>>(
-        self,
-        scene: Scene<Op, 3>,
-        fault: &Trace<3>,
-        place: impl Fn(&Vector3<f64>) -> [f64; 2],
-        spacing: f64,
-    ) -> Scene<Op, 3> {
-        let stress = fault.map(|x| Vector3::new(self.shear(place(x), spacing), 0.0, 0.0));
-        let normal = self.normal();
+    /// The length at the front over which friction weakens, in an infinite fault at rest \[m\]: `G L/((1 - nu) b sigma_n)`, of
+    /// flash heating with its steepest steady slope 0.18 for `b`, or `9 pi/32 G D_c/(tau_s - tau_d)` of slip weakening (S. Day
+    /// et al., J. Geophys. Res. 110 (2005)).
+    pub(super) fn weakening_length(self) -> f64 {
+        let [density, c_p, c_s] = ROCK;
+        let modulus = density * c_s.powi(2);
+        let ratio = (c_s / c_p).powi(2);
+        let poisson_ratio = (1.0 - 2.0 * ratio) / (2.0 - 2.0 * ratio);
+        let normal = self.normal(f64::INFINITY);
+        let rate_and_state = |distance: f64, slope: f64| {
+            2.0 * modulus * distance / ((1.0 - poisson_ratio) * slope * normal)
+        };
         match self {
             Self::Tpv5 => {
-                let slips = |[x, depth]: [f64; 2]| x.abs() <= 15e3 && depth <= 15e3;
-                let laws = fault.map(|x| LinearWeakening {
-                    static_friction: if slips(place(x)) { 0.677 } else { 1e4 },
-                    dynamic_friction: 0.525,
-                });
-                let contact = Contact::per_vertex(fault, laws, normal)
-                    .with_state(SlipWeakening { slip_distance: 0.2 }, Weakening(0.0));
-                scene.with_contact(contact.with_free_normal().with_shear_stress(stress))
+                let [from, to, distance] = WEAKENING;
+                9.0 * PI / 32.0 * modulus * 2.0 * distance / ((from - to) * normal)
             }
             Self::Tpv101 | Self::Tpv102 => {
-                let law = |x: &Vector3<f64>| {
-                    let [along, depth] = place(x);
-                    aging_of(smooth(along, 15e3) * smooth(depth - self.middle(), 7.5e3))
-                };
-                let evolution = law(&Vector3::zeros()).aging();
-                let states = fault.map(|x| LogTheta(initial_of(&law(x))));
-                let contact = Contact::per_vertex(fault, fault.map(law), normal)
-                    .with_state(evolution, states);
-                scene.with_contact(contact.with_free_normal().with_shear_stress(stress))
+                let law = aging_of(1.0);
+                rate_and_state(law.slip_distance, law.b)
             }
+            Self::Tpv104 | Self::Tpv105 => rate_and_state(flash_of(1.0).slip_distance, 0.18),
         }
     }
 }
 
-/// The share of an interval of a length about a place that is within a square about 0.
-fn covered(place: f64, length: f64) -> f64 {
-    let [low, high] = [place - 0.5 * length, place + 0.5 * length];
-    ((high.min(SQUARE) - low.max(-SQUARE)) / length).clamp(0.0, 1.0)
+/// The initial stresses of a fault, averages over the areas of its vertices.
+pub(super) struct Prestress {
+    /// The normal stress \[Pa\].
+    pub normal: Vec<f64>,
+    /// The shear stress along strike \[Pa\].
+    pub shear: Vec<f64>,
+    /// The forces that balance the normal stress \[N\].
+    pub balance: Vec<Vector3<f64>>,
+}
+
+impl Prestress {
+    /// That of a benchmark, on a fault whose points have these places.
+    pub(super) fn new(
+        problem: Benchmark,
+        (space, fault): (&P1<3>, &Trace<3>),
+        place: impl Fn(&Vector3<f64>) -> [f64; 2],
+    ) -> Result<Self, FemError> {
+        // The normal stress is there from the start and compresses nothing.
+        let balance = traction(space, fault, |x| {
+            Vector3::new(0.0, -problem.normal(place(x)[1]), 0.0)
+        })?;
+        let vertices = fault.vertices().iter().zip(fault.weights());
+        let normal: Vec<f64> = vertices.map(|(&p, w)| -balance[p][1] / w).collect();
+        let shear = match problem.law() {
+            Some(law) => {
+                let ratio = law.shear() / law.normal();
+                normal.iter().map(|normal| ratio * normal).collect()
+            }
+            None => {
+                let square = |middle: f64, stress: f64| Patch {
+                    extent: [[middle - 1.5e3, middle + 1.5e3], [6e3, 9e3]],
+                    value: stress - 70e6,
+                };
+                let squares = [
+                    square(0.0, 81.6e6),
+                    square(-7.5e3, 78e6),
+                    square(7.5e3, 62e6),
+                ];
+                let at = |k: usize| place(&fault.points()[k]);
+                let above = averages(fault, at, &squares);
+                above.iter().map(|above| 70e6 + above).collect()
+            }
+        };
+        Ok(Self {
+            normal,
+            shear,
+            balance,
+        })
+    }
+}
+
+impl Benchmark {
+    /// A scene with the fault.
+    ///
+    /// # Errors
+    /// None of these parameters is out of range.
+    pub(super) fn on<Op: Operator<3>>(
+        self,
+        scene: Scene<Op, 3>,
+        fault: &Trace<3>,
+        place: impl Fn(&Vector3<f64>) -> [f64; 2],
+        prestress: &Prestress,
+    ) -> Result<Scene<Op, 3>, ThermalError> {
+        let normal = prestress.normal.clone();
+        let along = |shear: &f64| Vector3::new(*shear, 0.0, 0.0);
+        let stress: Vec<_> = prestress.shear.iter().map(along).collect();
+        let Some(law) = self.law() else {
+            let slips = |[x, depth]: [f64; 2]| x.abs() <= 15e3 && depth <= 15e3;
+            let [static_friction, dynamic_friction, slip_distance] = WEAKENING;
+            let laws = fault.map(|x| LinearWeakening {
+                static_friction: if slips(place(x)) {
+                    static_friction
+                } else {
+                    1e4
+                },
+                dynamic_friction,
+            });
+            let contact = Contact::per_vertex(fault, laws, normal)
+                .with_state(SlipWeakening { slip_distance }, Weakening(0.0));
+            return Ok(scene.with_contact(contact.with_free_normal().with_shear_stress(stress)));
+        };
+        if law == Law::Aging {
+            let laws = fault.map(|x| aging_of(self.share(place(x))));
+            let states: Vec<_> = laws.iter().map(|law| LogTheta(initial_of(law))).collect();
+            let contact =
+                Contact::per_vertex(fault, laws, normal).with_state(aging_of(1.0).aging(), states);
+            return Ok(scene.with_contact(contact.with_free_normal().with_shear_stress(stress)));
+        }
+        let laws = fault.map(|x| flash_of(self.share(place(x))));
+        let evolutions: Vec<_> = laws.iter().map(|law| law.evolution()).collect();
+        let states: Vec<_> = laws.iter().map(|friction| start(law, friction)).collect();
+        let mut contact = Contact::per_vertex(fault, laws, normal)
+            .with_state_per_vertex(evolutions, states)
+            .with_free_normal()
+            .with_shear_stress(stress);
+        if self.is_heated() {
+            // Up to the surface.
+            let drainage = fault.map(|x| {
+                let [x, depth] = place(x);
+                drainage_of(smooth(x, 15e3) * smooth(depth, 15e3))
+            });
+            contact = contact.with_field(heated(drainage)?);
+        }
+        Ok(scene.with_contact(contact))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Vertices on an edge have the mean of both sides, and all together the stress of the squares.
-    #[test]
-    fn jumps_of_stress_are_averaged() {
-        let stress = |x: f64, depth: f64| Benchmark::Tpv5.shear([x, depth], 100.0) / 1e6;
-        assert_eq!(stress(0.0, 7.5e3), 81.6);
-        assert!((stress(1.5e3, 7.5e3) - 75.8).abs() < 1e-9);
-        assert!((stress(1.5e3, 9e3) - 72.9).abs() < 1e-9);
-        assert_eq!(
-            [
-                stress(-7.5e3, 7.5e3),
-                stress(7.5e3, 7.5e3),
-                stress(4e3, 7.5e3)
-            ],
-            [78.0, 62.0, 70.0]
-        );
-        let force: f64 = (-30..=30)
-            .map(|k| stress(100.0 * f64::from(k), 7.5e3) - 70.0)
-            .sum();
-        assert!((force - 30.0 * 11.6).abs() < 1e-9);
+    type Fault = (Vec<[f64; 2]>, Vec<f64>, Prestress);
+
+    /// Places and weights of the vertices of a fault, and its prestress.
+    fn fault(problem: Benchmark) -> Result<Fault, FemError> {
+        let space = P1::<3>::grid([20e3, 1e3, 12e3], [40, 1, 24])?;
+        let place = |x: &Vector3<f64>| [x[0] - 10e3, x[2]];
+        let fault = space.trace(|x| x[1] == 0.0)?;
+        let prestress = Prestress::new(problem, (&space, &fault), place)?;
+        Ok((fault.map(place), fault.weights().to_vec(), prestress))
     }
 
-    /// Friction bears the initial stress at the initial slip rate.
+    /// Vertices on an edge have a mean of both sides, and all together the force of the squares.
     #[test]
-    fn the_fault_starts_in_balance() {
+    fn jumps_of_stress_are_averaged() -> Result<(), FemError> {
+        let (places, weights, prestress) = fault(Benchmark::Tpv5)?;
+        let stress = |x: f64, depth: f64| {
+            let found = places.iter().position(|place| *place == [x, depth]);
+            found.map_or(f64::NAN, |k| prestress.shear[k])
+        };
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-7;
+        assert!(near(stress(0.0, 7.5e3), 81.6e6) && near(stress(4e3, 7.5e3), 70e6));
+        assert!(near(stress(-7.5e3, 7.5e3), 78e6) && near(stress(7.5e3, 7.5e3), 62e6));
+        assert!(near(stress(1.5e3, 7.5e3), 75.8e6));
+        let above = prestress.shear.iter().zip(&weights);
+        let force: f64 = above.map(|(shear, w)| (shear - 70e6) * w).sum();
+        assert!((force / (9e6 * (11.6e6 + 8e6 - 8e6)) - 1.0).abs() < 1e-12);
+        Ok(())
+    }
+
+    /// The normal stress of TPV105 grows with depth, and is above 0 at the surface; friction bears the shear stress.
+    #[test]
+    fn the_faults_start_in_balance() -> Result<(), FemError> {
         use stickslip::friction::FrictionLaw;
+        let (places, _, prestress) = fault(Benchmark::Tpv105)?;
+        for (([_, depth], normal), shear) in
+            places.iter().zip(&prestress.normal).zip(&prestress.shear)
+        {
+            // The mean depth of the triangles about a vertex at the surface is a fourth to a half of their height below it.
+            let [low, high] = [depth.max(100.0), depth + 250.0];
+            let range = [low, high].map(|z| Benchmark::Tpv105.normal(z) * (1.0 + 1e-12));
+            assert!(
+                *normal > 0.99 * range[0] && *normal <= range[1],
+                "{depth} {normal}"
+            );
+            assert!((shear / normal - 0.41).abs() < 1e-15);
+        }
         for share in [0.0, 0.3, 1.0] {
             let law = aging_of(share);
             let state = LogTheta(initial_of(&law));
             let friction = law.coefficient(Benchmark::Tpv102.initial_rate(), state);
             assert!((friction * 120e6 / 75e6 - 1.0).abs() < 1e-12);
+            let law = flash_of(share);
+            for (problem, ratio) in [(Benchmark::Tpv104, 40.0 / 120.0), (Benchmark::Tpv105, 0.41)] {
+                let Some(plane) = problem.law() else { continue };
+                let friction = law.coefficient(problem.initial_rate(), start(plane, &law));
+                assert!((friction / ratio - 1.0).abs() < 1e-12, "{share}");
+            }
         }
+        Ok(())
+    }
+
+    /// The tapers of TPV105 at the top and at the bottom: 1 from 3 to 15 km, a half in the middle of each.
+    #[test]
+    fn tapers() {
+        let share = |depth| Benchmark::Tpv105.share([0.0, depth]);
+        assert_eq!(
+            [0.0, 3e3, 9e3, 15e3, 18e3].map(share),
+            [0.0, 1.0, 1.0, 1.0, 0.0]
+        );
+        assert!(
+            [1.5e3, 16.5e3]
+                .map(share)
+                .iter()
+                .all(|share| (share - 0.5).abs() < 1e-15)
+        );
+        assert_eq!(Benchmark::Tpv102.share([0.0, 0.0]), 1.0);
     }
 }

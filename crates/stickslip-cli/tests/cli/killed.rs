@@ -1,4 +1,5 @@
-//! A run that is killed and restarted writes the files of an uninterrupted one: the slider, repeatedly, and a figure.
+//! A run that is killed and restarted writes the files of an uninterrupted one: the slider, repeatedly, a rupture in space, and
+//! a figure.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -130,6 +131,50 @@ fn a_hopeless_run_is_told_as_early() -> Outcome {
     let [keep, every] = ["--checkpoint", "--checkpoint-every"].map(OsStr::new);
     let kept = [keep, file.as_ref(), every, OsStr::new(EVERY)];
     assert_eq!(told(&[])?, told(&kept)?);
+    fs::remove_dir_all(&place)?;
+    Ok(())
+}
+
+#[test]
+fn a_rupture_in_space() -> Outcome {
+    let name = format!("stickslip-killed-rupture-{}", std::process::id());
+    let place = std::env::temp_dir().join(name);
+    fs::create_dir_all(&place)?;
+    let file = place.join("checkpoint");
+    let start = |folder: &str, kept: &[&OsStr]| -> Outcome<Child> {
+        let mut command = program("rupture3d");
+        let line = "--problem tpv105 --cell 2500 --growth 0.4 --margin 6000 --until 3";
+        command.args(line.split(' ')).args(kept);
+        command.arg("--out").arg(place.join(folder));
+        Ok(command
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()?)
+    };
+    if !start("whole", &[])?.wait()?.success() {
+        return Err("the whole run failed".into());
+    }
+    let [keep, every, restart] =
+        ["--checkpoint", "--checkpoint-every", "--restart"].map(OsStr::new);
+    let kept = [keep, file.as_ref(), every, OsStr::new("2")];
+    kill(&mut start("killed", &kept)?, &file)?;
+    let kept = if file.exists() {
+        vec![restart, file.as_ref()]
+    } else {
+        Vec::new()
+    };
+    if !start("killed", &kept)?.wait()?.success() {
+        return Err("the last run failed".into());
+    }
+    for table in [
+        "moment.csv",
+        "fault.csv",
+        "cplot.dat",
+        "faultst-090dp075.txt",
+    ] {
+        let read = |folder: &str| fs::read(place.join(folder).join(table));
+        assert!(read("whole")? == read("killed")?, "other {table}");
+    }
     fs::remove_dir_all(&place)?;
     Ok(())
 }

@@ -153,7 +153,7 @@ const INJECTION: [Wrong; 20] = [
     ("injection --shear-stress 0", "--shear-stress"),
 ];
 
-const OTHERS: [Wrong; 44] = [
+const OTHERS: [Wrong; 52] = [
     ("earthquakes --problem bp9", "--problem"),
     ("earthquakes --cell 333", "--cell 333"),
     ("earthquakes --cell 1e-9", "--cell"),
@@ -209,6 +209,17 @@ const OTHERS: [Wrong; 44] = [
     ("rupture3d --problem tpv6", "--problem"),
     ("rupture3d --cell=-1", "--cell"),
     ("rupture3d --margin 0", "--margin"),
+    ("rupture3d --damping=-1", "--damping"),
+    ("rupture3d --station 3", "comma"),
+    ("rupture3d --station 3,nan", "--station"),
+    ("rupture3d --cell 1", "GiB are available"),
+    (
+        "rupture3d --cell 5000 --station 0,90e3",
+        "outside the fault",
+    ),
+    ("rupture3d --mesh MESH", "dimension 3"),
+    ("rupture3d --mesh MESH --cell 9", "--mesh"),
+    ("rupture3d --vtu-every 3 --restart FILE", "--restart"),
     ("layer --law none", "--law"),
     ("layer --every 0", "--every"),
     ("slider3d --degrees nan", "--degrees"),

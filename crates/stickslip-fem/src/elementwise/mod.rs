@@ -175,6 +175,24 @@ impl<const D: usize> ElementStiffness<D> {
         add_product(self, scale, x, y);
     }
 
+    /// The factor of a multiple of another stiffness, which shares its memory: `self = factor other`.
+    ///
+    /// ```
+    /// use stickslip_fem::{Elastic, P1, element_stiffness};
+    ///
+    /// let space = P1::grid([2.0, 1.0], [4, 2])?;
+    /// let rock = Elastic { young_modulus: 2.5, poisson_ratio: 0.25 };
+    /// let stiffness = element_stiffness(&space, &rock)?;
+    /// assert_eq!((&stiffness * 0.5).multiple_of(&stiffness), Some(0.5));
+    /// assert_eq!(element_stiffness(&space, &rock)?.multiple_of(&stiffness), None);
+    /// # Ok::<(), stickslip_fem::FemError>(())
+    /// ```
+    pub fn multiple_of(&self, other: &Self) -> Option<f64> {
+        let shared =
+            Arc::ptr_eq(&self.elements, &other.elements) && Arc::ptr_eq(&self.lame, &other.lame);
+        shared.then_some(self.factor / other.factor)
+    }
+
     /// The number of vertices.
     pub fn vertex_count(&self) -> usize {
         self.elements.copies.vertex_count()

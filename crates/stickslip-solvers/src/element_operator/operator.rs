@@ -153,6 +153,18 @@ impl<const C: usize> Operator<C> for ElementOperator<C> {
         }
     }
 
+    fn multiple_of(&self, other: &Self) -> Option<f64> {
+        let ([(own, stiffness)], [(factor, another)]) = (&self.elements[..], &other.elements[..])
+        else {
+            return None;
+        };
+        let others = [self, other].map(|all| all.matrix.is_some() || all.basis.is_some());
+        if others.contains(&true) {
+            return None;
+        }
+        Some(own / factor * stiffness.multiple_of(another)?)
+    }
+
     fn change_basis(&mut self, basis: &Basis<C>) -> bool {
         self.set_basis(basis);
         if let Some(matrix) = &mut self.matrix {

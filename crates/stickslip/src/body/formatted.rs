@@ -77,6 +77,10 @@ impl<Op: Operator<C>, const C: usize> Matrices<C> for Formatted<Op, C> {
         plain(self.viscosities.get(number))
     }
 
+    fn relaxation(&self) -> Option<f64> {
+        self.lagged.as_ref().and_then(|lagged| lagged.relaxation)
+    }
+
     fn lagged(&self) -> &[usize] {
         self.lagged.as_ref().map_or(&[], |lagged| &lagged.places)
     }

@@ -29,6 +29,9 @@ pub(crate) trait Matrices<const C: usize>: Send + Sync {
     /// The numbers of those whose force lags in explicit steps.
     fn lagged(&self) -> &[usize];
 
+    /// The relaxation time \[s\] of which they are multiples of the stiffness, if all are by their construction.
+    fn relaxation(&self) -> Option<f64>;
+
     /// The sum of those that are part of the matrix of a step.
     fn prompt_viscosity(&self, implicit: bool) -> Option<&dyn Matrix<C>>;
 

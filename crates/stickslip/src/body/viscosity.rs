@@ -15,6 +15,8 @@ pub(super) struct Lagged<Op> {
     pub(super) places: Vec<usize>,
     /// The sum of the others, if there are any.
     pub(super) prompt: Option<Op>,
+    /// The relaxation time \[s\] of which they are multiples of the stiffness, if all are by their construction.
+    pub(super) relaxation: Option<f64>,
 }
 
 impl<Op: Operator<C>, const C: usize> Formatted<Op, C> {
@@ -30,7 +32,13 @@ impl<Op: Operator<C>, const C: usize> Formatted<Op, C> {
             .map(|&n| (1.0, &self.viscosities[n]))
             .collect();
         let prompt = (!terms.is_empty()).then(|| Op::combination(&terms));
-        (!places.is_empty()).then_some(Lagged { places, prompt })
+        let multiple = |n: &usize| self.viscosities[*n].multiple_of(&self.stiffness);
+        let relaxation = places.iter().map(multiple).sum();
+        (!places.is_empty()).then_some(Lagged {
+            places,
+            prompt,
+            relaxation,
+        })
     }
 }
 

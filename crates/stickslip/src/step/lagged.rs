@@ -1,13 +1,31 @@
-//! The force of viscosities that couple vertices, in explicit steps.
+//! The elastic force, and that of viscosities that couple vertices in explicit steps.
 
 use super::{Problem, Workspace};
 use crate::StepState;
 
 impl<const C: usize> Workspace<C> {
+    /// Subtracts the elastic force from the load; in explicit steps with lagged viscosities of `eta` times the stiffness their
+    /// force, too, by the same product: `A (u + eta (u - u_o)/dt)` in a step of `dt` \[s\].
+    pub(super) fn subtract_elastic(&mut self, p: &Problem<C>, start: &StepState<C>, dt: f64) {
+        let displacement = &self.end.displacement;
+        let relaxation = p.matrices.relaxation().filter(|_| self.lags());
+        let seen = match relaxation.map(|relaxation| relaxation / dt) {
+            Some(share) => {
+                let ends = displacement.iter().zip(&start.displacement);
+                for (seen, (new, old)) in self.mean_velocity.iter_mut().zip(ends) {
+                    *seen = new + (new - old) * share;
+                }
+                &self.mean_velocity
+            }
+            None => displacement,
+        };
+        (p.matrices.stiffness()).multiply_add(-1.0, seen, &mut self.load);
+    }
+
     /// Subtracts the force of the lagged viscosities from the load, at the mean velocity of a step of `dt` \[s\]: in an
     /// explicit scheme the new displacement is known, `v_o + dt/2 a_o = (u - u_o)/dt`.
     pub(super) fn subtract_lagged(&mut self, p: &Problem<C>, start: &StepState<C>, dt: f64) {
-        if self.operators.implicit || self.mean_velocity.is_empty() {
+        if !self.lags() || p.matrices.relaxation().is_some() {
             return;
         }
         let ends = self.end.displacement.iter().zip(&start.displacement);
@@ -17,5 +35,10 @@ impl<const C: usize> Workspace<C> {
         for viscosity in p.matrices.lagged_viscosities() {
             viscosity.multiply_add(-1.0, &self.mean_velocity, &mut self.load);
         }
+    }
+
+    /// Whether viscosities lag in the steps of the scheme.
+    fn lags(&self) -> bool {
+        !self.operators.implicit && !self.mean_velocity.is_empty()
     }
 }

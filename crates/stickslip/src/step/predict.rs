@@ -87,7 +87,7 @@ impl<const C: usize> Workspace<C> {
         (self.contacts).bound_gaps(predicted, &start.velocity, position);
         p.loads.fill(time, &mut self.load, &mut self.scratch);
         self.contacts.add_tractions(&mut self.load);
-        (p.matrices.stiffness()).multiply_add(-1.0, &self.end.displacement, &mut self.load);
+        self.subtract_elastic(p, start, dt);
         if let Some(mass) = p.matrices.mass() {
             mass.multiply_add(-1.0, &self.end.acceleration, &mut self.load);
         }

@@ -54,7 +54,8 @@ pub(crate) struct Workspace<const C: usize> {
     /// The change of the velocity by the last velocity problem.
     pub(crate) change: Vec<SVector<f64, C>>,
     pub(crate) scratch: Vec<SVector<f64, C>>,
-    /// The velocity that lagged viscosities see [m/s]; empty without them.
+    /// The velocity that lagged viscosities see [m/s], or the displacement \[m\] that has their force, too; empty without
+    /// them.
     pub(crate) mean_velocity: Vec<SVector<f64, C>>,
     pub(crate) solver_iterations: usize,
     /// None if friction weakens nowhere.

@@ -10,7 +10,6 @@ use std::path::Path;
 use stickslip::Snapshot;
 use stickslip::bie::Triangles;
 
-use super::super::contours::interval;
 use super::super::{Failed, YEAR};
 use crate::plot::{self, Colors, PatchSheet, Patches, Points};
 use frames::{EventSlip, Frame, Frames};
@@ -131,12 +130,12 @@ fn draw_slip(
         .collect();
     let largest = drawn.iter().flat_map(|event| &event.slip);
     let largest = largest.copied().fold(0.0, f64::max);
-    let step = interval(largest);
+    let step = plot::interval(largest);
     let drawn = drawn.into_iter().map(|event| {
         let title = format!("event at {:.2} years", event.time / YEAR);
         let lines = if step > 0.0 {
             let corners = contours::at_corners(cells, &event.slip);
-            contours::contours(places, &corners, step)
+            plot::contours(places, &corners, step)
         } else {
             Vec::new()
         };

@@ -1,0 +1,105 @@
+//! Fields of the fault as a table and as a picture: rupture times, largest slip rates and slip.
+
+use std::path::Path;
+
+use stickslip::fem::Trace;
+
+use super::rock::Rock;
+use crate::cli::Problem;
+use crate::plot::{self, Colors, PatchSheet, Patches, contours, interval};
+
+/// A field of the fault.
+pub(super) struct Field<'a> {
+    /// Its name, with the unit.
+    pub name: &'a str,
+    /// Its values at the vertices.
+    pub values: &'a [f64],
+}
+
+/// The vertices and faces of what may slip.
+pub(super) struct Part {
+    triangles: Vec<[[f64; 2]; 3]>,
+    faces: Vec<[usize; 3]>,
+}
+
+impl Part {
+    /// The faces with a vertex within an extent along strike and down dip \[m\].
+    pub(super) fn new(fault: &Trace<3>, rock: &Rock, [along, depth]: [f64; 2]) -> Self {
+        let place = |k: usize| rock.place(fault.points()[k].as_slice());
+        let within = |k: &usize| {
+            let [x, z] = place(*k);
+            x.abs() <= along && z <= depth
+        };
+        let faces = fault.faces().iter().filter(|face| face.iter().any(within));
+        let faces: Vec<_> = faces.copied().collect();
+        let corner = |k: usize| place(k).map(|x| x / 1e3);
+        let triangles = faces.iter().map(|face| {
+            face.map(|k| {
+                let [x, depth] = corner(k);
+                [x, -depth]
+            })
+        });
+        Self {
+            triangles: triangles.collect(),
+            faces,
+        }
+    }
+
+    /// Draws a field in colours with contours; those of `contoured` if given.
+    pub(super) fn draw(
+        &self,
+        path: &Path,
+        field: &Field<'_>,
+        contoured: Option<&Field<'_>>,
+    ) -> Result<(), Problem> {
+        let means = self.faces.iter().map(|face| {
+            let sum: f64 = face.iter().map(|&k| field.values[k]).sum();
+            sum / 3.0
+        });
+        let values: Vec<f64> = means.collect();
+        let lined = contoured.unwrap_or(field);
+        let corners: Vec<_> = self
+            .faces
+            .iter()
+            .map(|face| face.map(|k| lined.values[k]))
+            .collect();
+        let finite = corners.iter().flatten().filter(|value| value.is_finite());
+        let step = interval(finite.copied().fold(0.0, f64::max));
+        let lines = if step > 0.0 {
+            contours(&self.triangles, &corners, step)
+        } else {
+            Vec::new()
+        };
+        let largest = values
+            .iter()
+            .copied()
+            .filter(|value| value.is_finite())
+            .fold(0.0, f64::max);
+        let of = contoured.map_or_else(String::new, |other| format!(" of {}", other.name));
+        let title = format!(
+            "{}, contours{of} at {}",
+            field.name,
+            (step * 1e6).round() / 1e6
+        );
+        let sheet = PatchSheet {
+            name: field.name,
+            colors: Colors {
+                range: (0.0, if largest > 0.0 { largest } else { 1.0 }),
+                logarithmic: false,
+            },
+            rows: vec![[
+                Some(Patches {
+                    title,
+                    triangles: &self.triangles,
+                    values,
+                    behind: Vec::new(),
+                    above: lines.into_iter().map(|line| (2, line)).collect(),
+                    texts: Vec::new(),
+                    names: Some(["along strike [km]", "depth [km]"]),
+                }),
+                None,
+            ]],
+        };
+        plot::draw(path, &sheet)
+    }
+}
