@@ -38,12 +38,13 @@ impl Benchmark {
         }
     }
 
-    /// The largest distance along strike and the largest depth in the body that slips \[m\].
+    /// The largest distance along strike and the largest depth in the body that slips; the rock is whole beyond \[m\].
     pub fn extent(self) -> [f64; 2] {
         match self {
             Self::Tpv5 => [15e3, 15e3],
             Self::Tpv101 => [18e3, 10.5e3],
-            Self::Tpv102 | Self::Tpv104 | Self::Tpv105 => [18e3, 18e3],
+            Self::Tpv102 | Self::Tpv104 => [18e3, 18e3],
+            Self::Tpv105 => [22e3, 22e3],
         }
     }
 

@@ -16,23 +16,17 @@ pub(super) struct Field<'a> {
     pub values: &'a [f64],
 }
 
-/// The vertices and faces of what may slip.
+/// The faces of a fault, in kilometres.
 pub(super) struct Part {
     triangles: Vec<[[f64; 2]; 3]>,
     faces: Vec<[usize; 3]>,
 }
 
 impl Part {
-    /// The faces with a vertex within an extent along strike and down dip \[m\].
-    pub(super) fn new(fault: &Trace<3>, rock: &Rock, [along, depth]: [f64; 2]) -> Self {
-        let place = |k: usize| rock.place(fault.points()[k].as_slice());
-        let within = |k: &usize| {
-            let [x, z] = place(*k);
-            x.abs() <= along && z <= depth
-        };
-        let faces = fault.faces().iter().filter(|face| face.iter().any(within));
-        let faces: Vec<_> = faces.copied().collect();
-        let corner = |k: usize| place(k).map(|x| x / 1e3);
+    /// Those of a fault.
+    pub(super) fn new(fault: &Trace<3>, rock: &Rock) -> Self {
+        let corner = |k: usize| rock.place(fault.points()[k].as_slice()).map(|x| x / 1e3);
+        let faces = fault.faces().to_vec();
         let triangles = faces.iter().map(|face| {
             face.map(|k| {
                 let [x, depth] = corner(k);

@@ -153,17 +153,12 @@ impl Benchmark {
         let along = |shear: &f64| Vector3::new(*shear, 0.0, 0.0);
         let stress: Vec<_> = prestress.shear.iter().map(along).collect();
         let Some(law) = self.law() else {
-            let slips = |[x, depth]: [f64; 2]| x.abs() <= 15e3 && depth <= 15e3;
             let [static_friction, dynamic_friction, slip_distance] = WEAKENING;
-            let laws = fault.map(|x| LinearWeakening {
-                static_friction: if slips(place(x)) {
-                    static_friction
-                } else {
-                    1e4
-                },
+            let law = LinearWeakening {
+                static_friction,
                 dynamic_friction,
-            });
-            let contact = Contact::per_vertex(fault, laws, normal)
+            };
+            let contact = Contact::new(fault, law, normal)
                 .with_state(SlipWeakening { slip_distance }, Weakening(0.0));
             return Ok(scene.with_contact(contact.with_free_normal().with_shear_stress(stress)));
         };

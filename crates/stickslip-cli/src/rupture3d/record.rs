@@ -60,29 +60,24 @@ impl Record {
         let (problem, contact) = (arguments.problem, at.contact(0));
         let vertices = 0..contact.len();
         let points: Vec<_> = vertices.map(|k| rock.place(&contact.point(k))).collect();
-        let mut places = arguments.stations();
-        // A half along strike has those of its own side.
-        places.retain(|place| rock.reaches(*place));
-        let (low, high) = points.iter().fold(
-            ([f64::INFINITY; 2], [-f64::INFINITY; 2]),
-            |(low, high), point| {
-                (
-                    [0, 1].map(|i| point[i].min(low[i])),
-                    [0, 1].map(|i| point[i].max(high[i])),
-                )
-            },
-        );
+        let places = arguments.stations();
+        let [along, down] = problem.extent();
         if let Some([x, depth]) = places
             .iter()
-            .find(|place| (0..2).any(|i| place[i] < low[i] || place[i] > high[i]))
+            .find(|[x, depth]| x.abs() > along || !(0.0..=down).contains(depth))
         {
             return Err(format!(
-                "the station at {x} m along strike and {depth} m deep is outside the fault, from {} m to {} m along strike and from {} m to {} m deep",
-                low[0], high[0], low[1], high[1]
+                "the station at {x} m along strike and {depth} m deep is outside the fault, up to {along} m along strike and {down} m deep"
             ).into());
         }
         let station = |wanted: [f64; 2]| {
-            let far = |k: &usize| (points[*k][0] - wanted[0]).hypot(points[*k][1] - wanted[1]);
+            // The other half along strike is the same.
+            let x = if rock.even {
+                wanted[0].abs()
+            } else {
+                wanted[0]
+            };
+            let far = |k: &usize| (points[*k][0] - x).hypot(points[*k][1] - wanted[1]);
             let nearest = (0..points.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
             let position = nearest.unwrap_or(0);
             let (rate, shear) = (2.0 * problem.initial_rate(), prestress.shear[position]);

@@ -106,7 +106,7 @@ pub(super) fn report(arguments: &Arguments, outcome: &Outcome<'_>) -> Result<(),
         .map(|[x, depth]| format!("{x}, {depth} km"))
         .collect();
     plot::draw(&output.path(FILES[3]), &panels(record, &labels)[..])?;
-    let part = Part::new(outcome.fault, outcome.rock, problem.extent());
+    let part = Part::new(outcome.fault, outcome.rock);
     let reached: Vec<f64> = times
         .iter()
         .map(|time| if *time < NEVER { *time } else { f64::NAN })

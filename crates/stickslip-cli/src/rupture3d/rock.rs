@@ -51,14 +51,21 @@ impl Rock {
         self.down * z
     }
 
-    /// Whether a place is computed.
-    pub(super) fn reaches(&self, [x, _]: [f64; 2]) -> bool {
-        x >= self.corners[0][0] + self.begin
+    /// The fault: the faces within the extent of a benchmark.
+    pub(super) fn fault(&self, problem: Benchmark) -> Result<Trace<3>, FemError> {
+        self.space.trace(|x| x[1] == 0.0 && self.slips(problem, x))
     }
 
-    /// The fault.
-    pub(super) fn fault(&self) -> Result<Trace<3>, FemError> {
-        self.space.trace(|x| x[1] == 0.0)
+    /// Whether there is rock beyond the fault in its plane.
+    pub(super) fn is_larger_than(&self, problem: Benchmark) -> bool {
+        let mut vertices = self.space.mesh().vertices().iter();
+        vertices.any(|x| x[1] == 0.0 && !self.slips(problem, x))
+    }
+
+    /// Whether a point is within the extent of a benchmark along strike and down dip.
+    pub(super) fn slips(&self, problem: Benchmark, x: &Vector3<f64>) -> bool {
+        let ([along, depth], [x, z]) = (problem.extent(), self.place(x.as_slice()));
+        x.abs() <= along && z <= depth
     }
 
     /// The sides that absorb waves: all but the fault, the surface and the middle of two halves.
@@ -73,23 +80,16 @@ impl Rock {
     fn bottom(&self) -> f64 {
         self.corners[usize::from(self.down > 0.0)][2]
     }
+}
 
-    /// The longest edge at what slips \[m\].
-    pub(super) fn longest_edge(&self, fault: &Trace<3>, problem: Benchmark) -> f64 {
-        let ([along, depth], points) = (problem.extent(), fault.points());
-        let slips = |k: &usize| {
-            let [x, z] = self.place(points[*k].as_slice());
-            x.abs() <= along && z <= depth
-        };
-        let faces = fault.faces().iter();
-        let edges = faces
-            .filter(|face| face.iter().all(slips))
-            .flat_map(|face| {
-                let length = |k: usize| (points[face[k]] - points[face[(k + 1) % 3]]).norm();
-                [0, 1, 2].map(length)
-            });
-        edges.fold(0.0, f64::max)
-    }
+/// The longest edge of a fault \[m\].
+pub(super) fn longest_edge(fault: &Trace<3>) -> f64 {
+    let points = fault.points();
+    let edges = fault
+        .faces()
+        .iter()
+        .flat_map(|face| [0, 1, 2].map(|k| (points[face[k]] - points[face[(k + 1) % 3]]).norm()));
+    edges.fold(0.0, f64::max)
 }
 
 /// With fine cells at what slips.

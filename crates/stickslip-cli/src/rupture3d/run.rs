@@ -9,14 +9,15 @@ use stickslip::fem::{
 use stickslip::nalgebra::Vector3;
 use stickslip::record::VtkSeries;
 use stickslip::{
-    CentralDifferences, Components, Diagonal, ElementOperator, Scene, Simulation, Snapshot, Steps,
+    BoundaryPart, CentralDifferences, Components, Diagonal, ElementOperator, Scene, Simulation,
+    Snapshot, Steps,
 };
 
 use super::Arguments;
 use super::problem::{Prestress, ROCK};
 use super::record::Record;
 use super::report::{Outcome, report};
-use super::rock::Rock;
+use super::rock::{Rock, longest_edge};
 use crate::cli::Problem;
 use crate::progress::Progress;
 use crate::rupture::grow;
@@ -31,11 +32,8 @@ const RESOLVED: f64 = 3.0;
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let problem = arguments.problem;
     let rock = Rock::new(arguments)?;
-    let fault = rock.fault()?;
-    let (edge, length) = (
-        rock.longest_edge(&fault, problem),
-        problem.weakening_length(),
-    );
+    let fault = rock.fault(problem)?;
+    let (edge, length) = (longest_edge(&fault), problem.weakening_length());
     if edge > length / RESOLVED {
         note!(
             "warning: edges of {edge:.0} m do not resolve the {length:.0} m over which friction weakens at the front: take cells of {:.0} m or less",
@@ -144,6 +142,11 @@ fn scene(
         ]);
     if arguments.damping > 0.0 {
         scene = scene.with_viscosity(viscosity);
+    }
+    if rock.is_larger_than(problem) {
+        // Beyond the fault the rock is whole: what both halves move by is equal, and opposite.
+        let whole = BoundaryPart::vertices_where(space, |x| x[1] == 0.0 && !rock.slips(problem, x));
+        scene = scene.fix(whole, Components::X | Components::Z);
     }
     if rock.even {
         // The body on the other side moves as this one turned about the normal of the fault.
