@@ -1,5 +1,6 @@
 //! Several planes in one half space.
 
+mod algebra;
 mod assembly;
 mod between;
 mod blocks;
