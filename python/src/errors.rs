@@ -9,7 +9,7 @@ use hints::{RTOL, hint_of_scene, hint_of_step, worded};
 
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use stickslip::bie::{KernelError, SegmentsError, SurfaceError};
+use stickslip::bie::{KernelError, ReceiverError, SegmentsError, SurfaceError};
 use stickslip::fem::ReadError;
 use stickslip::friction::FrictionViolation;
 use stickslip::lab::LabError;
@@ -238,6 +238,22 @@ pub(crate) fn surface(py: Python<'_>, error: &SurfaceError) -> PyErr {
         }
         _ => fault(py, error, name(error)),
     }
+}
+
+/// The exception of points off a fault at which displacement and stress cannot be had.
+pub(crate) fn receivers(py: Python<'_>, error: &ReceiverError) -> PyErr {
+    if let ReceiverError::Value(cause) = error {
+        return kernel(py, cause);
+    }
+    made((|| {
+        let fields = variant!(py, error, ReceiverError {
+            NotFinite { receiver, value },
+            AboveSurface { receiver, height },
+            AtEdge { receiver, cell, distance, least },
+            Memory { receivers, cells, bytes, limit },
+        });
+        exception(py, "FaultError", error.to_string(), fields)
+    })())
 }
 
 fn fault(py: Python<'_>, error: &impl std::fmt::Display, kind: String) -> PyErr {

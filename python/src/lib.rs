@@ -26,8 +26,8 @@ mod _stickslip {
     use super::bodies::{Body, BodyRun, BodySimulation, BodyState, ContactState, Mesh, Part};
     #[pymodule_export]
     use super::faults::{
-        FaultRun, FaultSimulation, FaultSystem, LineFault, PlaneFault, SeasFiles, SeasTable,
-        SegmentFault, Segments, SurfaceFault, Triangles,
+        FaultRun, FaultSimulation, FaultSystem, LineFault, PlaneFault, Receivers, SeasFiles,
+        SeasTable, SegmentFault, Segments, SurfaceFault, Triangles,
     };
     #[pymodule_export]
     use super::fields::{

@@ -37,7 +37,7 @@ class StateLawError(SceneError):
 
 
 class FaultError(SceneError):
-    """Cells or a medium that do not make a fault."""
+    """Cells or a medium that do not make a fault, or points off one that cannot be receivers."""
 
 
 class FileError(StickslipError, ValueError):

@@ -12,6 +12,11 @@ def rebuild(cls: type[Any], given: dict[str, Any]) -> Any:
     return cls(**given)
 
 
+def receivers(fault: Any, given: dict[str, Any]) -> Any:
+    """The points off a fault that its method made of these arguments, without those that are None."""
+    return fault.receivers(**{key: value for key, value in given.items() if value is not None})
+
+
 def short(value: Any) -> str:
     """A value on one line: long arrays by their shape, times and stresses by seven digits."""
     shape = getattr(value, "shape", None)

@@ -10,6 +10,7 @@ use stickslip::{Snapshot, Steps};
 
 use super::callback::asked;
 use super::cycle::FaultSimulation;
+use super::receivers::Receivers;
 use super::record::FaultRun;
 use super::samples::Record;
 use super::seas::SeasFiles;
@@ -30,6 +31,7 @@ pub(super) struct Plan<'a> {
     pub(super) callback: Option<Py<PyAny>>,
     pub(super) threshold: [f64; 2],
     pub(super) seas: Option<&'a SeasFiles>,
+    pub(super) receivers: Option<&'a Receivers>,
     pub(super) progress: Option<Progress>,
 }
 
@@ -44,7 +46,10 @@ impl FaultSimulation {
     ) -> PyResult<FaultRun> {
         let at = stepper.snapshot();
         let samples_steps = plan.times.is_none();
-        let mut record = Record::of(&at);
+        if let Some(receivers) = plan.receivers {
+            receivers.check(at.displacement.len(), C)?;
+        }
+        let mut record = Record::of(&at, plan.receivers);
         if samples_steps {
             record.add(&at);
         }

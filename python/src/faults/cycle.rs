@@ -12,6 +12,7 @@ use stickslip::{StepState, Steps};
 
 use super::advance::Plan;
 use super::events::table;
+use super::receivers::Receivers;
 use super::record::FaultRun;
 use super::seas::SeasFiles;
 use crate::arguments::{Numbers, count, finite, named, positive, sample_times};
@@ -83,6 +84,7 @@ impl FaultSimulation {
     ///     seas: SeasFiles to write during the run.
     ///     t_eval: times [s] of the samples, in order, from the present one to `until`, in the place of every few steps: inside
     ///         of steps, which stay as they are, by a continuous extension of the method.
+    ///     receivers: points off the fault, whose displacement and velocity are sampled, too.
     ///     progress: whether a bar of tqdm, if it is installed, or a line shows the time reached.
     ///
     /// Returns:
@@ -92,8 +94,8 @@ impl FaultSimulation {
     /// Raises:
     ///     StepError: for a step that fails; the samples up to there are its `partial`.
     ///     OSError: for a file that cannot be written.
-    #[pyo3(signature = (until, *, every=10, rtol=1e-6, max_steps=Some(MAX_STEPS), callback=None, threshold=[1e-2, 1e-3], stops=Numbers(Vec::new()), seas=None, t_eval=None, progress=false),
-           text_signature = "($self, until, *, every=10, rtol=1e-06, max_steps=2000000, callback=None, threshold=(0.01, 0.001), stops=[], seas=None, t_eval=None, progress=False)")]
+    #[pyo3(signature = (until, *, every=10, rtol=1e-6, max_steps=Some(MAX_STEPS), callback=None, threshold=[1e-2, 1e-3], stops=Numbers(Vec::new()), seas=None, t_eval=None, receivers=None, progress=false),
+           text_signature = "($self, until, *, every=10, rtol=1e-06, max_steps=2000000, callback=None, threshold=(0.01, 0.001), stops=[], seas=None, t_eval=None, receivers=None, progress=False)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn run(
         &self,
@@ -107,6 +109,7 @@ impl FaultSimulation {
         #[pyo3(from_py_with = named)] stops: Numbers,
         #[pyo3(from_py_with = named)] seas: Option<Bound<'_, SeasFiles>>,
         #[pyo3(from_py_with = named)] t_eval: Option<Numbers>,
+        #[pyo3(from_py_with = named)] receivers: Option<Bound<'_, Receivers>>,
         #[pyo3(from_py_with = named)] progress: bool,
     ) -> PyResult<FaultRun> {
         let call = Call::begin()?;
@@ -149,6 +152,7 @@ impl FaultSimulation {
             callback,
             threshold: [begins, ends],
             seas: seas.as_ref().map(Bound::get),
+            receivers: receivers.as_ref().map(Bound::get),
             progress: Progress::new(py, progress, [now, until])?,
         };
         each!(&mut *motion, stepper, catalogue => {

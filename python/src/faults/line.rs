@@ -10,6 +10,8 @@ use super::geometry::Geometry;
 use super::laws::Given;
 use super::loading::Directed;
 use super::per_cell::PerCell;
+use super::receivers::Receivers;
+use super::rows::Points;
 use super::scene::{Arguments, simulation};
 use crate::arguments::named;
 use crate::bodies::PerVertex;
@@ -129,6 +131,22 @@ impl LineFault {
     #[getter]
     fn centers<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_iter(py, self.geometry.centers().iter().map(|x| x[0]))
+    }
+
+    /// Points off the fault, at which its slip displaces and strains the rock. Axes: x across the fault, with a dip from the
+    /// trace towards the hanging wall; y along strike; z up. A vertical fault is at x = 0 and its positions are -z; slip is
+    /// that of the side x > 0 along y, in plane strain up. Periodic faults have none.
+    ///
+    /// Args:
+    ///     points: (x, z) or (x, y, z) [m], not at ends of cells; right beside the fault both sides differ by the slip.
+    ///     plate_rate: of the creep beyond the cells [m/s], which histories of runs have, too; None for none.
+    #[pyo3(signature = (points, *, plate_rate=None))]
+    fn receivers(
+        slf: &Bound<'_, Self>,
+        #[pyo3(from_py_with = named)] points: Points,
+        #[pyo3(from_py_with = named)] plate_rate: Option<PerCell>,
+    ) -> PyResult<Receivers> {
+        Receivers::of(slf.as_any(), &slf.get().geometry, points, plate_rate)
     }
 
     /// A simulation with rate- and state-dependent friction on the fault, regularised by asinh, and radiation damping.

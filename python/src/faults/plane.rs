@@ -10,6 +10,8 @@ use super::geometry::Geometry;
 use super::laws::Given;
 use super::loading::Directed;
 use super::per_cell::PerCell;
+use super::receivers::Receivers;
+use super::rows::Points;
 use super::scene::{Arguments, simulation};
 use crate::arguments::{named, wrong_type};
 use crate::bodies::PerVertex;
@@ -164,6 +166,23 @@ impl PlaneFault {
     #[getter]
     fn centers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         into_rows(py, self.geometry.centers())
+    }
+
+    /// Points off the fault, at which its slip displaces and strains the rock. Axes: x along strike, y horizontal to the left
+    /// of it, z up; in a whole space y up dip, and z into the hanging wall.
+    ///
+    /// Args:
+    ///     points: (x, y, z) [m], or (x, y) at z = 0, not on edges of cells; right beside the fault both sides differ by the
+    ///         slip.
+    ///     plate_rate: of the creep beyond the cells [m/s], with a free rake a pair, which histories of runs have, too; None
+    ///         for none.
+    #[pyo3(signature = (points, *, plate_rate=None))]
+    fn receivers(
+        slf: &Bound<'_, Self>,
+        #[pyo3(from_py_with = named)] points: Points,
+        #[pyo3(from_py_with = named)] plate_rate: Option<PerCell>,
+    ) -> PyResult<Receivers> {
+        Receivers::of(slf.as_any(), &slf.get().geometry, points, plate_rate)
     }
 
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.

@@ -1,12 +1,13 @@
 //! The record of a fault: arrays over time and cells.
 #![expect(non_snake_case, reason = "names of the field")]
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stickslip::record::Event;
 
 use super::events::table;
+use super::receivers::Receivers;
 use super::samples::Record;
 use crate::plain::{Reduced, fields, helper, ranges, reduced};
 
@@ -34,6 +35,10 @@ pub(crate) struct FaultRun {
     readings: Py<PyDict>,
     /// Arrays over time of what fields show as a whole, by name, such as "injected_volume"; those of one name are added.
     totals: Py<PyDict>,
+    /// Displacement of the receivers of the run [m], by samples, receivers and axes.
+    receiver_displacement: Py<PyArray3<f64>>,
+    /// Their velocity [m/s].
+    receiver_velocity: Py<PyArray3<f64>>,
     /// Events, a structured array with `to_frame()`: onset, arrest [s], origin, hypocentre [m], peak_slip_rate [m/s], cells,
     /// area, mean_slip, largest_slip [m], moment, stress_drop, pressure_change [Pa]. One under way at the end has nan as its
     /// arrest.
@@ -45,7 +50,7 @@ pub(crate) struct FaultRun {
 impl FaultRun {
     pub(super) fn of(
         py: Python<'_>,
-        record: Record,
+        record: Record<'_>,
         events: &[Event],
         steps: usize,
     ) -> PyResult<Self> {
@@ -78,6 +83,11 @@ impl FaultRun {
         for (name, values) in record.totals {
             totals.set_item(name, values.into_pyarray(py))?;
         }
+        let receivers = record.receivers.map_or(0, Receivers::count);
+        let [receiver_displacement, receiver_velocity] = record.moved.map(|moved| {
+            let array = moved.into_pyarray(py).reshape([samples, receivers, 3]);
+            array.map(Bound::unbind)
+        });
         Ok(Self {
             t: record.times.into_pyarray(py).unbind(),
             V: V?,
@@ -89,6 +99,8 @@ impl FaultRun {
             effective_normal_stress: effective_normal_stress?,
             readings: readings.unbind(),
             totals: totals.unbind(),
+            receiver_displacement: receiver_displacement?,
+            receiver_velocity: receiver_velocity?,
             events: table(py, events)?.unbind(),
             steps,
         })
@@ -96,7 +108,7 @@ impl FaultRun {
 
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         Ok(
-            fields!(py, self; t, V, slip, theta, shear_stress, normal_stress, pore_pressure, effective_normal_stress, readings, totals, events, steps),
+            fields!(py, self; t, V, slip, theta, shear_stress, normal_stress, pore_pressure, effective_normal_stress, readings, totals, receiver_displacement, receiver_velocity, events, steps),
         )
     }
 }
@@ -104,7 +116,7 @@ impl FaultRun {
 #[pymethods]
 impl FaultRun {
     #[new]
-    #[pyo3(signature = (*, t, V, slip, theta, shear_stress, normal_stress, pore_pressure, effective_normal_stress, readings, totals, events, steps))]
+    #[pyo3(signature = (*, t, V, slip, theta, shear_stress, normal_stress, pore_pressure, effective_normal_stress, readings, totals, receiver_displacement, receiver_velocity, events, steps))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         t: Py<PyArray1<f64>>,
@@ -117,6 +129,8 @@ impl FaultRun {
         effective_normal_stress: Py<PyArray2<f64>>,
         readings: Py<PyDict>,
         totals: Py<PyDict>,
+        receiver_displacement: Py<PyArray3<f64>>,
+        receiver_velocity: Py<PyArray3<f64>>,
         events: Py<PyAny>,
         steps: usize,
     ) -> Self {
@@ -131,6 +145,8 @@ impl FaultRun {
             effective_normal_stress,
             readings,
             totals,
+            receiver_displacement,
+            receiver_velocity,
             events,
             steps,
         }

@@ -25,6 +25,40 @@ impl<'a, 'py, const D: usize> FromPyObject<'a, 'py> for Rows<D> {
     }
 }
 
+/// Points in space, or in a plane: rows of two or three coordinates \[m\].
+pub(super) struct Points(Vec<[f64; 3]>, bool);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Points {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(Rows(points)) = given.extract::<Rows<3>>() {
+            return Ok(Self(points, false));
+        }
+        let flat: PyResult<Rows<2>> = given.extract();
+        let Rows(points) =
+            flat.map_err(|_| wrong_type("an array of shape (n, 2) or (n, 3) of numbers", &given))?;
+        let points = points.into_iter().map(|[x, other]| [x, other, 0.0]);
+        Ok(Self(points.collect(), true))
+    }
+}
+
+impl Points {
+    /// Points of which two coordinates are `x` and `z`.
+    pub(super) fn in_section(self) -> Vec<[f64; 3]> {
+        let Self(points, flat) = self;
+        let place = |[x, other, z]: [f64; 3]| {
+            if flat { [x, 0.0, other] } else { [x, other, z] }
+        };
+        points.into_iter().map(place).collect()
+    }
+
+    /// Points of which two coordinates are `x` and `y`, at `z = 0`.
+    pub(super) fn at_surface(self) -> Vec<[f64; 3]> {
+        self.0
+    }
+}
+
 /// Polylines: one, or a list of them.
 pub(super) struct Lines(pub(super) Vec<Vec<[f64; 2]>>);
 

@@ -2,8 +2,10 @@
 
 use stickslip::{ContactView, Snapshot};
 
+use super::receivers::Receivers;
+
 /// Samples of a run of a fault with so many cells.
-pub(super) struct Record {
+pub(super) struct Record<'a> {
     pub(super) cells: usize,
     pub(super) times: Vec<f64>,
     /// V, slip and shear stress, of as many components as slip.
@@ -17,11 +19,18 @@ pub(super) struct Record {
     /// The totals of fields, by name.
     pub(super) totals: Vec<(&'static str, Vec<f64>)>,
     pub(super) components: usize,
+    /// Points off the fault.
+    pub(super) receivers: Option<&'a Receivers>,
+    /// Their displacement and velocity.
+    pub(super) moved: [Vec<f64>; 2],
 }
 
-impl Record {
-    /// No samples yet of a fault.
-    pub(super) fn of<const C: usize>(fault: &Snapshot<'_, C>) -> Self {
+impl<'a> Record<'a> {
+    /// No samples yet of a fault, and of points off it.
+    pub(super) fn of<const C: usize>(
+        fault: &Snapshot<'_, C>,
+        receivers: Option<&'a Receivers>,
+    ) -> Self {
         let contact = fault.contact(0);
         let readings = contact.readings();
         let totals = contact.totals();
@@ -34,6 +43,8 @@ impl Record {
             readings: by_name(readings.iter().map(|reading| reading.name)),
             totals: by_name(totals.iter().map(|(total, _)| total.name)),
             components: C,
+            receivers,
+            moved: Default::default(),
         }
     }
 
@@ -57,6 +68,10 @@ impl Record {
             normal.push(contact.normal_stress(k));
         }
         self.add_fields(&contact);
+        if let Some(receivers) = self.receivers {
+            let motion = [at.displacement, at.velocity];
+            receivers.sample(at.time, motion, &mut self.moved);
+        }
     }
 
     /// Appends the pressures, readings and totals of fields.

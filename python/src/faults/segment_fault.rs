@@ -11,7 +11,8 @@ use super::geometry::Geometry;
 use super::laws::Given;
 use super::loading::Directed;
 use super::per_cell::PerCell;
-use super::rows::Rows;
+use super::receivers::Receivers;
+use super::rows::{Points, Rows};
 use super::scene::{Arguments, simulation};
 use super::segments::Segments;
 use crate::arguments::{Numbers, named};
@@ -146,6 +147,18 @@ impl SegmentFault {
         let found = found.map_err(|error| errors::segments(py, &error))?;
         let numbers = found.iter().flatten().copied();
         PyArray1::from_iter(py, numbers).reshape([points.len(), 3, 3])
+    }
+
+    /// Points off the fault, at which its slip displaces and strains the rock; axes are those of the segments.
+    ///
+    /// Args:
+    ///     points: (x, z) or (x, y, z) [m], not at ends of cells; right beside the fault both sides differ by the slip.
+    #[pyo3(signature = (points))]
+    fn receivers(
+        slf: &Bound<'_, Self>,
+        #[pyo3(from_py_with = named)] points: Points,
+    ) -> PyResult<Receivers> {
+        Receivers::of(slf.as_any(), &slf.get().geometry, points, None)
     }
 
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.

@@ -12,6 +12,8 @@ use super::geometry::Geometry;
 use super::laws::Given;
 use super::loading::Directed;
 use super::per_cell::PerCell;
+use super::receivers::Receivers;
+use super::rows::Points;
 use super::scene::{Arguments, simulation};
 use super::triangles::Triangles;
 use crate::arguments::{named, wrong_type};
@@ -176,6 +178,19 @@ impl SurfaceFault {
             _ => Vec::new(),
         };
         PyArray1::from_vec(py, rakes)
+    }
+
+    /// Points off the fault, at which its slip displaces and strains the rock. Axes: east, north and up.
+    ///
+    /// Args:
+    ///     points: (x, y, z) [m], or (x, y) at z = 0, not on edges of cells; right beside the fault both sides differ by the
+    ///         slip.
+    #[pyo3(signature = (points))]
+    fn receivers(
+        slf: &Bound<'_, Self>,
+        #[pyo3(from_py_with = named)] points: Points,
+    ) -> PyResult<Receivers> {
+        Receivers::of(slf.as_any(), &slf.get().geometry, points, None)
     }
 
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`, and those of

@@ -12,6 +12,8 @@ use super::laws::Given;
 use super::loading::Directed;
 use super::per_cell::PerCell;
 use super::plane::PlaneFault;
+use super::receivers::Receivers;
+use super::rows::Points;
 use super::scene::{Arguments, simulation};
 use crate::arguments::named;
 use crate::bodies::PerVertex;
@@ -122,6 +124,19 @@ impl FaultSystem {
             _ => Vec::new(),
         };
         into_rows(py, centers.into_iter().map(Vector3::from).collect())
+    }
+
+    /// Points off the planes, at which their slip displaces and strains the rock. Axes: east, north and up.
+    ///
+    /// Args:
+    ///     points: (x, y, z) [m], or (x, y) at z = 0, not on edges of cells; right beside a plane both sides differ by the
+    ///         slip.
+    #[pyo3(signature = (points))]
+    fn receivers(
+        slf: &Bound<'_, Self>,
+        #[pyo3(from_py_with = named)] points: Points,
+    ) -> PyResult<Receivers> {
+        Receivers::of(slf.as_any(), &slf.get().geometry, points, None)
     }
 
     /// A simulation with friction on the planes; the arguments are those of `LineFault.simulation`, with values per cell plane

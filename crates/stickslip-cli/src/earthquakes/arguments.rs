@@ -96,11 +96,6 @@ impl Arguments {
             ("--normal", self.normal, bp3 || of_file),
             ("--seas", self.seas.is_some(), !of_file),
             (
-                "--receivers",
-                self.off_fault.receivers.is_some(),
-                of_file || !(bp6 || bp8),
-            ),
-            (
                 "--surface-grid",
                 self.off_fault.surface_grid.is_some(),
                 of_file || problem == Problem::Bp5,
@@ -230,7 +225,7 @@ mod tests {
             "--problem bp6 --refine 3",
             "--faults ramp.csv --seas files",
             "--problem bp3 --surface-grid 1000",
-            "--problem bp6 --receivers gps.csv",
+            "--problem bp8 --surface-grid 1000",
             "--faults ramp.csv --method implicit",
             "--faults ramp.csv --dip 30",
         ] {
@@ -245,6 +240,7 @@ mod tests {
             "--problem bp7 --no-perturbation --components 2",
             "--problem bp5 --surface-grid 1000 --receivers gps.csv",
             "--problem bp6s --pressure closed-form --seas files",
+            "--problem bp6 --receivers gps.csv",
             "--problem bp8 --source well --allow-opening --refine 1",
         ] {
             assert!(read(line).check().is_ok(), "{line}");

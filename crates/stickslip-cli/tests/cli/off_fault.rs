@@ -103,6 +103,53 @@ fn a_grid_shows_the_surface() -> Outcome {
     Ok(())
 }
 
+/// The rock on both sides of a fault with fluid parts by the slip of the cell between, and moves oppositely. The cells
+/// around the injection slip equally: the station there has the slip of each.
+#[test]
+fn rock_moves_beside_an_injection() -> Outcome {
+    for (problem, points, [station, column]) in [
+        (
+            "bp6 --cell 100 --years 0.1",
+            "1e-2,-50,a\n-1e-2,-50,b\n",
+            ["fltst_dp000", "disp_y"],
+        ),
+        (
+            "bp8 --cell 100 --years 0.01 --refine 1",
+            "50,50,1e-2,a\n50,50,-1e-2,b\n",
+            ["fltst_strk+000dp+000", "disp_2"],
+        ),
+    ] {
+        let out = folder("off-fault-injection")?;
+        let (seas, table) = (out.join("seas"), out.join("points.csv"));
+        let head = if points.starts_with('1') {
+            "x,z,name"
+        } else {
+            "x,y,z,name"
+        };
+        fs::write(&table, format!("{head}\n{points}"))?;
+        let line = format!(
+            "--problem {problem} --seas {} --receivers {}",
+            seas.display(),
+            table.display()
+        );
+        assert_eq!(run(&line, &out)?, None);
+        let (names, above) = end(&seas.join("srfst_a"))?;
+        let (_, below) = end(&seas.join("srfst_b"))?;
+        let (_, fault) = end(&seas.join(station))?;
+        let mut names = names.split(' ');
+        let at = names.position(|name| name == column).ok_or(column)?;
+        let slip = fault[1];
+        assert!(slip > 1e-6, "{problem}: {slip}");
+        let jump = above[at] - below[at];
+        assert!((jump / slip - 1.0).abs() < 1e-3, "{problem}: {jump} {slip}");
+        assert!((above[at] + below[at]).abs() < 1e-6 * slip, "{problem}");
+        // There is no creep beyond the cells, and the file says so.
+        let text = fs::read_to_string(seas.join("srfst_a"))?;
+        assert!(text.contains("that of slip on the cells alone"), "{text}");
+    }
+    Ok(())
+}
+
 #[test]
 fn receivers_that_are_none_are_told_in_a_line() -> Outcome {
     let out = folder("off-fault-wrong")?;

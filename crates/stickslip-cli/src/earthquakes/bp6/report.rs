@@ -10,6 +10,7 @@ use stickslip::record::SeasPoint;
 use stickslip::{Run, Snapshot};
 
 use super::super::fluid::Pressure;
+use super::super::off_fault::{OWN, Plan, Record};
 use super::super::seas::{Places, files};
 use super::super::watch::{self, Watch};
 use super::super::{Arguments, DAY, Failed, Problem, Station};
@@ -56,6 +57,8 @@ pub(super) fn run(
         fault.cells(),
     );
     let mut files = files(arguments, places(cells), &motion.snapshot())?;
+    let plan = Plan::of_injection(fault, OWN, EVENT)?;
+    let mut off_fault = Record::new(arguments, plan, output.folder(), &motion.snapshot())?;
     let mut watches =
         STATIONS.map(|z| Watch::new(Station::on_line(cells, z), format!("{z} m"), &TIMES));
     let mut error: f64 = 0.0;
@@ -70,9 +73,11 @@ pub(super) fn run(
         if at.time >= DAY && !(SHUT..SHUT + DAY).contains(&at.time) {
             error = error.max(departure(cells, &at));
         }
+        off_fault.record(&at)?;
         (files.as_mut()).map_or(ControlFlow::Continue(()), |files| files.record(&at))
     })?;
     drop(progress);
+    off_fault.finish(&motion.snapshot())?;
     if let Some(files) = files {
         files.finish()?;
     }

@@ -9,6 +9,7 @@ use stickslip::record::SeasPoint;
 use stickslip::{ContactView, RungeKutta};
 
 use super::super::fluid::Source;
+use super::super::off_fault::{Plan, Record, WHOLE_SPACE};
 use super::super::seas::{Places, files};
 use super::super::watch::{self, Watch};
 use super::super::{Arguments, DAY, Failed, Station};
@@ -60,6 +61,8 @@ pub(super) fn run<const C: usize>(
     ];
     let output = arguments.files.create("earthquakes", &FILES)?;
     let mut files = files(arguments, places(fault), &motion.snapshot())?;
+    let plan = Plan::of_injection(fault, WHOLE_SPACE, EVENT)?;
+    let mut off_fault = Record::new(arguments, plan, output.folder(), &motion.snapshot())?;
     let mut watches = STATIONS.map(|[x, y]| {
         let station = Station::on_plane(fault.cells(), [x, y]);
         Watch::new(station, format!("({x}, {y}) m"), &TIMES)
@@ -75,9 +78,11 @@ pub(super) fn run<const C: usize>(
         watches.iter_mut().for_each(|watch| watch.see(&at));
         shown.see(fault, at.time, &at.contact(0));
         shown.least = shown.least.max(at.report.at_least_normal_stress);
+        off_fault.record(&at)?;
         (files.as_mut()).map_or(ControlFlow::Continue(()), |files| files.record(&at))
     })?;
     drop(progress);
+    off_fault.finish(&motion.snapshot())?;
     if let Some(files) = files {
         files.finish()?;
     }

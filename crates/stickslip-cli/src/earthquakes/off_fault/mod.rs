@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use stickslip::Snapshot;
-use stickslip::bie::{Receivers, Sources};
+use stickslip::bie::{self, Receivers, Sources};
 use stickslip::nalgebra::SVector;
 use stickslip::record::{ReceiverFiles, ReceiverFolder, SeasHeader};
 
@@ -119,6 +119,22 @@ impl<const C: usize> Record<C> {
 }
 
 impl<const C: usize> Plan<C> {
+    /// That of a fault in a whole space that does not slip beyond its cells.
+    pub(super) fn of_injection(
+        fault: &impl bie::OffFault<C>,
+        axes: Axes,
+        event: f64,
+    ) -> Result<Self, Failed> {
+        Ok(Self {
+            sources: fault.sources()?,
+            plate: None,
+            stations: Vec::new(),
+            axes,
+            event,
+            extent: None,
+        })
+    }
+
     fn files(
         &self,
         arguments: &Arguments,
