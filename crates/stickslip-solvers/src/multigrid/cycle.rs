@@ -12,9 +12,11 @@
 use nalgebra::SVector;
 
 use super::Multigrid;
-use super::couplings::{Before, Coupling, Couplings};
-use super::level::{Fields, Level, Transfer};
+use super::couplings::Couplings;
+use super::level::{Fields, Level};
+use super::packed::{Before, Coupling};
 use super::smoother::{Smoother, Sweep, interpolated, parents};
+use super::transfer::Transfer;
 use super::{slab_cycle, tied_cycle};
 use crate::block_matrix::{Rows, row_product};
 use crate::colouring::Colouring;

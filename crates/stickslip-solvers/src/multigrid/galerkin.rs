@@ -3,7 +3,7 @@
 use nalgebra::SMatrix;
 
 use super::entries::Entries;
-use super::level::Transfer;
+use super::transfer::Transfer;
 use crate::block::without;
 use crate::block_matrix::Rows;
 use crate::parts::{Divide, Each, for_each};

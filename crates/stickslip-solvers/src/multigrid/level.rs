@@ -6,10 +6,11 @@ use super::couplings::Couplings;
 use super::entries::Entries;
 use super::galerkin::{self, Product, RowsMut};
 use super::line_smoother::Sets;
+use super::transfer::Transfer;
 use crate::block::inverse;
 use crate::block_matrix::Rows;
 use crate::colouring::Colouring;
-use crate::{BlockMatrix, Frames, Prolongation, SolveError};
+use crate::{BlockMatrix, Frames, SolveError};
 
 /// The colouring of so many rows with a bandwidth.
 pub(super) type Cut = fn(usize, usize) -> Colouring;
@@ -17,52 +18,6 @@ pub(super) type Cut = fn(usize, usize) -> Colouring;
 /// Smallest number of rows of a Galerkin product that is worth a thread, and largest number of parts.
 const ROWS: usize = 2048;
 const PARTS: usize = 16;
-
-/// Prolongation and its transpose, both by rows.
-#[derive(Debug, Clone)]
-pub(crate) struct Transfer {
-    /// Rows: fine vertices.
-    pub(super) prolongation: Prolongation,
-    /// Rows: coarse vertices.
-    pub(super) restriction: Prolongation,
-}
-
-impl Transfer {
-    pub(super) fn new(prolongation: &Prolongation) -> Self {
-        Self {
-            prolongation: prolongation.to_csr(),
-            restriction: prolongation.transpose_view().to_csr(),
-        }
-    }
-
-    pub(super) fn fine_count(&self) -> usize {
-        self.prolongation.rows()
-    }
-
-    /// The fine vertex at the position of a coarse one.
-    pub(super) fn copy_of(&self, coarse: usize) -> usize {
-        let mut found = coarse;
-        self.for_each_copy(|fine, parent| {
-            if parent == coarse {
-                found = fine;
-            }
-        });
-        found
-    }
-
-    /// Calls `visit(fine, coarse)` for every fine vertex that is a coarse one.
-    fn for_each_copy(&self, mut visit: impl FnMut(usize, usize)) {
-        let rows = Rows::of(&self.prolongation);
-        for fine in 0..self.prolongation.rows() {
-            if let (Some((coarse, _)), None) = {
-                let mut row = rows.row(fine);
-                (row.next(), row.next())
-            } {
-                visit(fine, coarse);
-            }
-        }
-    }
-}
 
 /// The second-order model of friction at the current iterate, one entry per frictional vertex.
 pub(crate) struct Linearization<'a, const C: usize> {

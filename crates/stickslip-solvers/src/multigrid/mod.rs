@@ -12,11 +12,13 @@ mod galerkin;
 mod level;
 mod line_smoother;
 mod linked_transfers;
+mod packed;
 mod slab_cycle;
 mod smoother;
 #[cfg(test)]
 mod tests;
 mod tied_cycle;
+mod transfer;
 mod whole;
 
 pub(crate) use level::Linearization;
@@ -28,7 +30,8 @@ use crate::colouring::Colouring;
 use crate::energy::expect;
 use crate::{Basis, BlockMatrix, MeshId, Prolongation, SolveError, Transfers};
 use coarse::CoarseSolver;
-use level::{Cut, Fields, Level, Transfer};
+use level::{Cut, Fields, Level};
+use transfer::Transfer;
 use whole::Whole;
 
 /// A hierarchy of operators, coarsest first, and the cycle on it.

@@ -11,9 +11,10 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 
-use super::couplings::{Before, Coupling};
-use super::level::{Level, Transfer};
+use super::level::Level;
+use super::packed::{Before, Coupling};
 use super::smoother::{Smoother, Sweep, interpolated, parents};
+use super::transfer::Transfer;
 use crate::block_matrix::Rows;
 use crate::colouring::Colouring;
 use crate::parts::{Each, for_parts};

@@ -2,8 +2,9 @@
 
 use nalgebra::SVector;
 
-use super::couplings::{Before, Coupling};
-use super::level::{Level, Transfer};
+use super::level::Level;
+use super::packed::{Before, Coupling};
+use super::transfer::Transfer;
 use crate::block_matrix::Rows;
 use crate::field::clear_masked;
 

@@ -2,7 +2,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::level::{Level, Transfer};
+use super::level::Level;
+use super::transfer::Transfer;
 use crate::block_matrix::{Rows, row_product};
 use crate::field::clear_masked;
 
