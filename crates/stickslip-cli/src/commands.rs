@@ -1,6 +1,7 @@
 //! The commands of the program `stickslip`, one a module.
 
 use std::ffi::OsString;
+use std::num::NonZeroUsize;
 
 use clap::{Parser, Subcommand};
 
@@ -8,13 +9,17 @@ use crate::cli::{self, Problem, Refusal};
 use crate::output::Files;
 use crate::{
     earthquakes, figures, fit, gmsh, injection, layer, rupture, rupture3d, slider, slider3d,
-    spring_slider, sweep,
+    spring_slider, sweep, threads,
 };
 
 /// Stick-slip of elastic bodies under rate-and-state friction. Each command writes numbers and pictures to a folder.
 #[derive(Debug, Parser)]
 #[command(name = "stickslip", version)]
 pub struct CommandLine {
+    /// Number of threads that share the work on a large body or fault, with the same bits on any number; with `sweep` and
+    /// `figures`, that of runs at a time [default: RAYON_NUM_THREADS, or as many as there are processors]
+    #[arg(long, global = true, value_name = "N", value_parser = cli::count)]
+    threads: Option<NonZeroUsize>,
     #[command(subcommand)]
     command: Command,
 }
@@ -62,7 +67,14 @@ impl Command {
 pub fn run(line: &CommandLine) -> Result<(), Problem> {
     let (files, name) = line.command.files();
     files.probe(name)?;
-    match &line.command {
+    match line.threads {
+        Some(threads) => threads::inside(threads, || take(&line.command)),
+        None => take(&line.command),
+    }
+}
+
+fn take(command: &Command) -> Result<(), Problem> {
+    match command {
         Command::Slider(arguments) => slider::run(arguments),
         Command::Figures(arguments) => figures::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),

@@ -40,5 +40,6 @@ pub mod slider3d;
 pub mod spring_slider;
 pub mod sweep;
 pub mod table;
+mod threads;
 mod unused;
 mod words;

@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::BlockMatrix;
 use crate::field::{add_scaled_pair, dot, scale_and_add_pair};
 use crate::multigrid::{LOOK, Multigrid};
 
@@ -103,7 +104,7 @@ impl<const C: usize> LinearSystem<C> {
     /// fallen by the square of `reduction`.
     pub(crate) fn conjugate_gradients(
         &mut self,
-        multigrid: &mut Multigrid<C>,
+        (multigrid, operator): (&mut Multigrid<C>, &BlockMatrix<C>),
         reduction: f64,
         target: f64,
         max_cycles: usize,
@@ -121,7 +122,7 @@ impl<const C: usize> LinearSystem<C> {
         let mut ahead = 0.0;
         for cycle in 1..=max_cycles {
             // What is left after slow cycles is a linear problem of its own, to be solved exactly.
-            let anew = cycle == 1 || multigrid.replace_cycles(ahead);
+            let anew = cycle == 1 || multigrid.replace_cycles(operator, ahead);
             multigrid.cycle(
                 &self.residual,
                 &mut self.preconditioned,

@@ -89,8 +89,12 @@ impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
                 clear_masked(residual, fixed);
             }
             let step = inside(load.len(), || {
-                self.linear
-                    .conjugate_gradients(&mut self.multigrid, REDUCTION, 0.0, MAX_CYCLES)
+                self.linear.conjugate_gradients(
+                    (&mut self.multigrid, operator),
+                    REDUCTION,
+                    0.0,
+                    MAX_CYCLES,
+                )
             });
             if !(step.curvature.is_finite() && step.error.is_finite()) {
                 return Err(SolveError::NotFinite {

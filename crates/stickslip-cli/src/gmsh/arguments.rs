@@ -123,6 +123,8 @@ pub enum Solver {
     Condensed,
     /// Truncated nonsmooth Newton multigrid
     Tnnmg,
+    /// The same with the blocks of its linear problems in single precision, for large bodies in space
+    TnnmgSingle,
 }
 
 /// The normal stress of the contacts on the command line \[Pa\].

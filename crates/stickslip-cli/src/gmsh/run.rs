@@ -52,7 +52,7 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
     let space = P1::new(split(mesh, &arguments.contact)?);
     let space = match arguments.solver {
         Solver::Condensed => space,
-        Solver::Tnnmg => space.with_auxiliary_levels()?,
+        Solver::Tnnmg | Solver::TnnmgSingle => space.with_auxiliary_levels()?,
     };
     let space = space.refined(arguments.refinements.into())?;
     let faults = Fault::all(&space, &arguments.contact)?;
@@ -73,6 +73,7 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
     let solver: Box<dyn NonsmoothSolver<BlockMatrix<D>, D>> = match arguments.solver {
         Solver::Condensed => Box::new(Condensed::new()),
         Solver::Tnnmg => Box::new(Tnnmg::new(space.transfers())),
+        Solver::TnnmgSingle => Box::new(Tnnmg::new(space.transfers()).in_single_precision()),
     };
     let scheme: Box<dyn RateScheme> = match arguments.compression {
         Some(_) => Box::new(BackwardEuler),

@@ -11,9 +11,7 @@ use compiled::{add_product, change_basis, combination, combine, half_norm, squar
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub(crate) use rows::Graph;
 #[cfg(feature = "multigrid")]
-pub(crate) use rows::add_transposed_row;
-#[cfg(feature = "multigrid")]
-pub(crate) use rows::partial_product;
+pub(crate) use rows::{Block, add_transposed_row, partial_product, sum_products};
 pub use rows::{BlockMatrix, Prolongation};
 pub(crate) use rows::{Rows, row_product, row_product_behind};
 pub(crate) use sums::{add, on_patterns};

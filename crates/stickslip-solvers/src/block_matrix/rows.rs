@@ -87,22 +87,77 @@ impl<'a, T> Rows<'a, T> {
     }
 }
 
+/// The entries of a block, in double or in single precision.
+pub(crate) trait Block<const C: usize>: Copy + Send + Sync {
+    fn entry(&self, row: usize, column: usize) -> f64;
+
+    /// The block times a vector.
+    fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C>;
+}
+
+impl<const C: usize> Block<C> for SMatrix<f64, C, C> {
+    #[inline(always)]
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        self.data.0[column][row]
+    }
+
+    #[inline(always)]
+    fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C> {
+        self * x
+    }
+}
+
+impl<B: Block<C>, const C: usize> Block<C> for &B {
+    #[inline(always)]
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        (**self).entry(row, column)
+    }
+
+    #[inline(always)]
+    fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C> {
+        (**self).times(x)
+    }
+}
+
+/// By columns.
+impl<const C: usize> Block<C> for [[f32; C]; C] {
+    #[inline(always)]
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        f64::from(self[column][row])
+    }
+
+    #[inline(always)]
+    fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C> {
+        SMatrix::from_fn(|r, c| self.entry(r, c)) * x
+    }
+}
+
 /// `sum of block_j x_j` over some entries of a row; `x` begins at vertex `first`.
 ///
 /// One accumulator per entry of a block: the chains are independent, and the loads fill a register.
 #[inline(always)]
-pub(crate) fn partial_product<const C: usize>(
+pub(crate) fn partial_product<B: Block<C>, const C: usize>(
     columns: &[u32],
-    blocks: &[SMatrix<f64, C, C>],
+    blocks: &[B],
     first: usize,
     x: &[SVector<f64, C>],
 ) -> SVector<f64, C> {
+    let columns = columns.iter().map(|&j| j as usize - first);
+    sum_products(columns.zip(blocks), x)
+}
+
+/// `sum of block_j x_j`, given the positions and the blocks.
+#[inline(always)]
+pub(crate) fn sum_products<B: Block<C>, const C: usize>(
+    entries: impl Iterator<Item = (usize, B)>,
+    x: &[SVector<f64, C>],
+) -> SVector<f64, C> {
     let mut sums = [[0.0; C]; C];
-    for (&j, block) in columns.iter().zip(blocks) {
-        let x_j = &x[j as usize - first].data.0[0];
+    for (j, block) in entries {
+        let x_j = &x[j].data.0[0];
         for c in 0..C {
             for r in 0..C {
-                sums[c][r] += block.data.0[c][r] * x_j[c];
+                sums[c][r] += block.entry(r, c) * x_j[c];
             }
         }
     }
@@ -117,8 +172,8 @@ pub(crate) fn partial_product<const C: usize>(
 
 /// `(A x)_row`.
 #[inline(always)]
-pub(crate) fn row_product<const C: usize>(
-    matrix: &Rows<'_, SMatrix<f64, C, C>>,
+pub(crate) fn row_product<B: Block<C>, const C: usize>(
+    matrix: &Rows<'_, B>,
     row: usize,
     x: &[SVector<f64, C>],
 ) -> SVector<f64, C> {
@@ -127,8 +182,8 @@ pub(crate) fn row_product<const C: usize>(
 
 /// `(A x)_row`, of an `x` that begins at vertex `first`, before any column of the row.
 #[inline(always)]
-pub(crate) fn row_product_behind<const C: usize>(
-    matrix: &Rows<'_, SMatrix<f64, C, C>>,
+pub(crate) fn row_product_behind<B: Block<C>, const C: usize>(
+    matrix: &Rows<'_, B>,
     row: usize,
     first: usize,
     x: &[SVector<f64, C>],
@@ -141,8 +196,8 @@ pub(crate) fn row_product_behind<const C: usize>(
 /// Adds to `y`, which begins at vertex `first`, the contribution of `x_row` to `A^T x`, last entry of the row first.
 #[cfg(feature = "multigrid")]
 #[inline(always)]
-pub(crate) fn add_transposed_row<const C: usize>(
-    matrix: &Rows<'_, SMatrix<f64, C, C>>,
+pub(crate) fn add_transposed_row<B: Block<C>, const C: usize>(
+    matrix: &Rows<'_, B>,
     row: usize,
     x_row: &SVector<f64, C>,
     first: usize,
@@ -157,7 +212,7 @@ pub(crate) fn add_transposed_row<const C: usize>(
         for c in 0..C {
             let mut product = 0.0;
             for r in 0..C {
-                product += block.data.0[c][r] * x_row[r];
+                product += block.entry(r, c) * x_row[r];
             }
             y_j[c] += product;
         }

@@ -12,10 +12,14 @@
 use nalgebra::SVector;
 
 use super::Multigrid;
-use super::level::{Fields, Level, Transfer};
+use super::couplings::Couplings;
+use super::level::{Fields, Level};
+use super::packed::{Before, Coupling};
 use super::smoother::{Smoother, Sweep, interpolated, parents};
+use super::transfer::Transfer;
 use super::{slab_cycle, tied_cycle};
 use crate::block_matrix::{Rows, row_product};
+use crate::colouring::Colouring;
 use crate::field::clear_masked;
 use crate::parts::for_parts;
 
@@ -81,13 +85,16 @@ pub(super) fn run<const C: usize>(
     }
 }
 
-/// `image = H correction`.
+/// `image = H correction`, on a level that keeps its matrix.
 pub(super) fn multiply<const C: usize>(
     level: &Level<C>,
     correction: &[SVector<f64, C>],
     image: &mut [SVector<f64, C>],
 ) {
-    let rows = Rows::of(&level.matrix);
+    let Some(matrix) = &level.matrix else {
+        return;
+    };
+    let rows = Rows::of(matrix);
     for_parts(0..image.len(), image, &|part, image| {
         for (image, i) in image.iter_mut().zip(part) {
             *image = row_product(&rows, i, correction);
@@ -143,13 +150,35 @@ fn descend<const C: usize, const FRAMES: bool>(
     if pre == 0 {
         x.fill(SVector::zeros());
     }
-    if !level.slabs.is_whole() {
-        slab_cycle::descend(level, pre, residual, x, sums);
-        return slab_cycle::restrict::<C, FRAMES>(level, pre > 0, residual, sums, transfer, coarse);
+    match &level.couplings {
+        Couplings::Double(packed) => {
+            let smoother = Smoother::new(level, packed.rows(), residual);
+            sweep_down::<_, C, FRAMES>(smoother, &level.slabs, pre, x, sums, transfer, coarse);
+        }
+        Couplings::Single(packed) => {
+            let smoother = Smoother::new(level, packed.rows(), residual);
+            sweep_down::<_, C, FRAMES>(smoother, &level.slabs, pre, x, sums, transfer, coarse);
+        }
     }
-    let (smoother, parents) = (Smoother::new(level, residual), parents(transfer));
+}
+
+/// [`descend`] in sweeps over single vertices.
+fn sweep_down<B: Coupling<C>, const C: usize, const FRAMES: bool>(
+    smoother: Smoother<'_, B, C>,
+    slabs: &Colouring,
+    pre: usize,
+    x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
+    transfer: &Transfer,
+    coarse: &mut [SVector<f64, C>],
+) {
+    if !slabs.is_whole() {
+        slab_cycle::descend(smoother, slabs, pre, x, sums);
+        return slab_cycle::restrict::<B, C, FRAMES>(smoother, pre > 0, sums, transfer, coarse);
+    }
+    let parents = parents(transfer);
     coarse.fill(SVector::zeros());
-    let lag = level.slabs.bandwidth() + 1;
+    let lag = slabs.bandwidth() + 1;
     for t in 0..x.len() + pre * lag {
         for sweep in 0..=pre {
             let Some(i) = t.checked_sub(sweep * lag) else {
@@ -190,12 +219,41 @@ fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
     if !level.sets.is_empty() {
         return tied_cycle::ascend::<C, IMAGE>(level, post, residual, x, sums, transfer, coarse);
     }
+    match &level.couplings {
+        Couplings::Double(packed) => {
+            let before = packed.rows();
+            sweep_up::<_, C, IMAGE, FRAMES>(
+                level, before, post, residual, x, sums, edges, transfer, coarse,
+            );
+        }
+        Couplings::Single(packed) => {
+            let before = packed.rows();
+            sweep_up::<_, C, IMAGE, FRAMES>(
+                level, before, post, residual, x, sums, edges, transfer, coarse,
+            );
+        }
+    }
+}
+
+/// [`ascend`] in sweeps over single vertices.
+#[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
+fn sweep_up<B: Coupling<C>, const C: usize, const IMAGE: bool, const FRAMES: bool>(
+    level: &Level<C>,
+    before: Before<'_, B>,
+    post: usize,
+    residual: &[SVector<f64, C>],
+    x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
+    edges: &mut [SVector<f64, C>],
+    transfer: &Transfer,
+    coarse: &[SVector<f64, C>],
+) {
     if !level.slabs.is_whole() {
-        return slab_cycle::ascend::<C, IMAGE, FRAMES>(
-            level, post, residual, x, sums, edges, transfer, coarse,
+        return slab_cycle::ascend::<B, C, IMAGE, FRAMES>(
+            level, before, post, residual, x, sums, edges, transfer, coarse,
         );
     }
-    let (smoother, parents) = (Smoother::new(level, residual), parents(transfer));
+    let (smoother, parents) = (Smoother::new(level, before, residual), parents(transfer));
     let stages = post + usize::from(IMAGE);
     let lag = level.slabs.bandwidth() + 1;
     for t in 0..x.len() + stages * lag {

@@ -2,11 +2,12 @@
 
 use nalgebra::SMatrix;
 
-use super::level::{Level, Transfer};
-use crate::BlockMatrix;
+use super::entries::Entries;
+use super::transfer::Transfer;
 use crate::block::without;
 use crate::block_matrix::Rows;
 use crate::parts::{Divide, Each, for_each};
+use crate::{BlockMatrix, Frames};
 
 /// The pattern of `P^T H P`, with zero values.
 pub(super) fn pattern<const C: usize>(
@@ -85,7 +86,8 @@ impl<const C: usize> Divide for RowsMut<'_, C> {
 
 /// `P^T H P` without the components that the coarse level drops.
 pub(super) struct Product<'a, const C: usize> {
-    pub(super) fine: &'a Level<C>,
+    pub(super) fine: Entries<'a, C>,
+    pub(super) frames: &'a Frames<C>,
     pub(super) transfer: &'a Transfer,
     pub(super) dropped: &'a [[bool; C]],
 }
@@ -115,7 +117,6 @@ impl<const C: usize> Product<'_, C> {
         (columns, blocks): (&[u32], &mut [SMatrix<f64, C, C>]),
         positions: &mut [u32],
     ) {
-        let fine_rows = Rows::of(&self.fine.matrix);
         let parents = Rows::of(&self.transfer.prolongation);
         let children = Rows::of(&self.transfer.restriction);
         for (&column, k) in columns.iter().zip(0..) {
@@ -123,8 +124,8 @@ impl<const C: usize> Product<'_, C> {
         }
         blocks.fill(SMatrix::zeros());
         for (i, &row_weight) in children.row(row) {
-            for (j, block) in fine_rows.row(i) {
-                let block = self.fine.frames.block_to_coordinates((i, j), *block);
+            for (j, block) in self.fine.row(i) {
+                let block = self.frames.block_to_coordinates((i, j), block);
                 for (parent, &column_weight) in parents.row(j) {
                     blocks[positions[parent] as usize] += block * (row_weight * column_weight);
                 }

@@ -2,12 +2,15 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::couplings::Couplings;
+use super::entries::Entries;
 use super::galerkin::{self, Product, RowsMut};
 use super::line_smoother::Sets;
-use crate::block::{inverse, without};
+use super::transfer::Transfer;
+use crate::block::inverse;
 use crate::block_matrix::Rows;
 use crate::colouring::Colouring;
-use crate::{BlockMatrix, Frames, Prolongation, SolveError};
+use crate::{BlockMatrix, Frames, SolveError};
 
 /// The colouring of so many rows with a bandwidth.
 pub(super) type Cut = fn(usize, usize) -> Colouring;
@@ -15,52 +18,6 @@ pub(super) type Cut = fn(usize, usize) -> Colouring;
 /// Smallest number of rows of a Galerkin product that is worth a thread, and largest number of parts.
 const ROWS: usize = 2048;
 const PARTS: usize = 16;
-
-/// Prolongation and its transpose, both by rows.
-#[derive(Debug, Clone)]
-pub(crate) struct Transfer {
-    /// Rows: fine vertices.
-    pub(super) prolongation: Prolongation,
-    /// Rows: coarse vertices.
-    pub(super) restriction: Prolongation,
-}
-
-impl Transfer {
-    pub(super) fn new(prolongation: &Prolongation) -> Self {
-        Self {
-            prolongation: prolongation.to_csr(),
-            restriction: prolongation.transpose_view().to_csr(),
-        }
-    }
-
-    pub(super) fn fine_count(&self) -> usize {
-        self.prolongation.rows()
-    }
-
-    /// The fine vertex at the position of a coarse one.
-    pub(super) fn copy_of(&self, coarse: usize) -> usize {
-        let mut found = coarse;
-        self.for_each_copy(|fine, parent| {
-            if parent == coarse {
-                found = fine;
-            }
-        });
-        found
-    }
-
-    /// Calls `visit(fine, coarse)` for every fine vertex that is a coarse one.
-    fn for_each_copy(&self, mut visit: impl FnMut(usize, usize)) {
-        let rows = Rows::of(&self.prolongation);
-        for fine in 0..self.prolongation.rows() {
-            if let (Some((coarse, _)), None) = {
-                let mut row = rows.row(fine);
-                (row.next(), row.next())
-            } {
-                visit(fine, coarse);
-            }
-        }
-    }
-}
 
 /// The second-order model of friction at the current iterate, one entry per frictional vertex.
 pub(crate) struct Linearization<'a, const C: usize> {
@@ -73,13 +30,10 @@ pub(crate) struct Linearization<'a, const C: usize> {
 /// A level of the hierarchy.
 #[derive(Debug)]
 pub(crate) struct Level<const C: usize> {
-    /// Rows and columns of dropped components are zero.
-    pub(crate) matrix: BlockMatrix<C>,
-    /// The blocks of `matrix` at the columns that a forward sweep visits before the row, packed: half of the matrix,
-    /// and all that a cycle reads. With one slab these are the blocks below the diagonal.
-    pub(super) before: BlockMatrix<C>,
-    /// Position of each row's diagonal block in the data of `matrix`.
-    pub(super) diagonals: Vec<u32>,
+    /// Rows and columns of dropped components are zero. The finest level has one only if its cycle reads more than the
+    /// couplings; its entries are those of the operator.
+    pub(super) matrix: Option<BlockMatrix<C>>,
+    pub(super) couplings: Couplings<C>,
     /// Inverse diagonal blocks, zero on dropped components.
     pub(crate) inverses: Vec<SMatrix<f64, C, C>>,
     /// The permanently fixed components.
@@ -88,6 +42,8 @@ pub(crate) struct Level<const C: usize> {
     pub(crate) dropped: Vec<[bool; C]>,
     /// The frictional vertices, whose components may be dropped, increasing.
     frictional: Vec<u32>,
+    /// The slopes of friction there, on the finest level since the last refresh.
+    hessians: Vec<SMatrix<f64, C, C>>,
     /// The rows that truncation and friction can change, increasing.
     pub(super) strip: Vec<u32>,
     /// The frictional vertices on the finer level: (this level's vertex, the finer level's).
@@ -115,7 +71,7 @@ pub(super) struct Fields<const C: usize> {
 
 impl<const C: usize> Fields<C> {
     pub(super) fn of(level: &Level<C>) -> Self {
-        let zeros = || vec![SVector::zeros(); level.matrix.rows()];
+        let zeros = || vec![SVector::zeros(); level.size()];
         Self {
             residual: zeros(),
             correction: zeros(),
@@ -127,50 +83,43 @@ impl<const C: usize> Fields<C> {
 impl<const C: usize> Level<C> {
     /// A level of a pattern, with the rows that friction reaches besides the neighbours of frictional vertices.
     fn new(
-        matrix: BlockMatrix<C>,
-        cut: Cut,
+        matrix: &BlockMatrix<C>,
+        (cut, single): (Cut, bool),
         fixed: Vec<[bool; C]>,
         frictional: Vec<u32>,
         reached: impl Iterator<Item = u32>,
     ) -> Self {
         let size = matrix.rows();
-        let rows = Rows::of(&matrix);
+        let rows = Rows::of(matrix);
         let around = frictional
             .iter()
             .flat_map(|&i| &rows.columns[rows.range(i as usize)]);
         let mut strip: Vec<u32> = around.copied().chain(reached).collect();
         strip.sort_unstable();
         strip.dedup();
-        let diagonals = (0..size)
-            .map(|i| {
-                let range = rows.range(i);
-                let before = rows.columns[range.clone()].partition_point(|&j| (j as usize) < i);
-                (range.start + before) as u32
-            })
-            .collect();
         let slabs = cut(size, rows.bandwidth());
         Self {
-            diagonals,
             inverses: vec![SMatrix::zeros(); size],
             dropped: fixed.clone(),
             fixed,
+            hessians: Vec::with_capacity(frictional.len()),
             frictional,
             strip,
             copies: Vec::new(),
             cuts: Vec::new(),
             positions: Vec::new(),
-            before: before(&matrix, &slabs),
+            couplings: Couplings::of(matrix, &slabs, single),
             slabs,
             sets: Sets::default(),
             frames: Frames::default(),
-            matrix,
+            matrix: None,
         }
     }
 
     /// The level of the operator itself.
     pub(super) fn finest(
         operator: &BlockMatrix<C>,
-        cut: Cut,
+        how: (Cut, bool),
         fixed: &[[bool; C]],
         frictional: &[usize],
         frames: &Frames<C>,
@@ -179,13 +128,18 @@ impl<const C: usize> Level<C> {
         let reached = std::iter::empty();
         Self {
             frames: frames.clone(),
-            ..Self::new(operator.clone(), cut, fixed.to_vec(), frictional, reached)
+            ..Self::new(operator, how, fixed.to_vec(), frictional, reached)
         }
     }
 
     /// The next coarser level: pattern, fixed components and strip, without values.
-    pub(super) fn coarsened(finer: &Self, cut: Cut, transfer: &Transfer) -> Self {
-        let matrix = galerkin::pattern(&finer.matrix, transfer);
+    pub(super) fn coarsened(
+        finer: &Self,
+        fine: &BlockMatrix<C>,
+        how: (Cut, bool),
+        transfer: &Transfer,
+    ) -> Self {
+        let matrix = galerkin::pattern(fine, transfer);
         let mut fixed = vec![[false; C]; matrix.rows()];
         transfer.for_each_copy(|fine, coarse| fixed[coarse] = finer.seen(fine, &finer.fixed[fine]));
         let mut copies = Vec::new();
@@ -209,7 +163,52 @@ impl<const C: usize> Level<C> {
             copies,
             cuts: (0..=parts).map(|k| size * k / parts).collect(),
             positions: vec![0; size * parts],
-            ..Self::new(matrix, cut, fixed, frictional, reached)
+            ..Self::new(&matrix, how, fixed, frictional, reached)
+        }
+        .with_matrix(matrix)
+    }
+
+    fn with_matrix(mut self, matrix: BlockMatrix<C>) -> Self {
+        self.matrix = Some(matrix);
+        self
+    }
+
+    /// The number of vertices.
+    pub(super) fn size(&self) -> usize {
+        self.inverses.len()
+    }
+
+    /// The matrix of the finest level, whose entries are those of the operator.
+    pub(super) fn of_operator<'a>(&'a self, operator: &'a BlockMatrix<C>) -> Entries<'a, C> {
+        Entries {
+            rows: Rows::of(operator),
+            dropped: &self.dropped,
+            frictional: &self.frictional,
+            hessians: &self.hessians,
+        }
+    }
+
+    /// The matrix of a level; that of the finest is given by the operator.
+    pub(super) fn entries<'a>(&'a self, operator: &'a BlockMatrix<C>) -> Entries<'a, C> {
+        match &self.matrix {
+            Some(matrix) => Entries {
+                rows: Rows::of(matrix),
+                dropped: &self.dropped,
+                frictional: &[],
+                hessians: &[],
+            },
+            None => self.of_operator(operator),
+        }
+    }
+
+    /// Keeps the matrix of the finest level from now on.
+    pub(super) fn keep_matrix(&mut self, operator: &BlockMatrix<C>) {
+        if self.matrix.is_none() {
+            let mut matrix = operator.clone();
+            for i in 0..self.size() {
+                copy_row(&mut matrix, self.of_operator(operator), i);
+            }
+            self.matrix = Some(matrix);
         }
     }
 
@@ -222,19 +221,15 @@ impl<const C: usize> Level<C> {
     }
 
     pub(super) fn same_pattern(&self, operator: &BlockMatrix<C>, fixed: &[[bool; C]]) -> bool {
-        self.fixed == fixed
-            && self.matrix.indices() == operator.indices()
-            && self.matrix.indptr() == operator.indptr()
+        self.fixed == fixed && self.couplings.has_pattern_of(operator, &self.slabs)
     }
 
-    /// Copies all values of the operator, with the fixed components dropped.
+    /// Takes all values of the operator, with the fixed components dropped.
     pub(super) fn restore(&mut self, operator: &BlockMatrix<C>) {
         self.dropped.copy_from_slice(&self.fixed);
-        for i in 0..self.matrix.rows() {
-            self.copy_row(operator, i);
-        }
-        for i in 0..self.matrix.rows() {
-            self.complete(i);
+        self.hessians.clear();
+        for i in 0..self.size() {
+            self.take_row(operator, i);
         }
     }
 
@@ -247,45 +242,72 @@ impl<const C: usize> Level<C> {
         for (&vertex, dropped) in linearization.vertices.iter().zip(linearization.dropped) {
             self.dropped[vertex] = *dropped;
         }
-        for s in 0..self.strip.len() {
-            self.copy_row(operator, self.strip[s] as usize);
-        }
-        for (&vertex, hessian) in linearization.vertices.iter().zip(linearization.hessians) {
-            let dropped = &self.dropped[vertex];
-            let block = &mut self.matrix.data_mut()[self.diagonals[vertex] as usize];
-            for c in (0..C).filter(|&c| !dropped[c]) {
-                for r in (0..C).filter(|&r| !dropped[r]) {
-                    block[(r, c)] += hessian[(r, c)];
-                }
-            }
-        }
+        self.hessians.clear();
+        self.hessians.extend_from_slice(linearization.hessians);
         for s in 0..self.strip.len() {
             let vertex = self.strip[s] as usize;
-            if !self.complete(vertex) {
+            if !self.take_row(operator, vertex) {
                 return Err(SolveError::IndefiniteBlock { vertex });
             }
         }
-        self.sets.refresh(&Rows::of(&self.matrix), &self.dropped);
+        self.refresh_sets();
         Ok(())
     }
 
+    /// Takes a row of the operator; false if its diagonal block is not positive definite.
+    fn take_row(&mut self, operator: &BlockMatrix<C>, i: usize) -> bool {
+        let entries = Entries {
+            rows: Rows::of(operator),
+            dropped: &self.dropped,
+            frictional: &self.frictional,
+            hessians: &self.hessians,
+        };
+        if let Some(matrix) = &mut self.matrix {
+            copy_row(matrix, entries, i);
+        }
+        let diagonal = self.couplings.set_row(i, entries.row(i));
+        self.invert(i, &diagonal)
+    }
+
+    /// Completes a row of a coarse level for cycles.
+    fn complete(&mut self, i: usize) {
+        if let Some(matrix) = &self.matrix {
+            let row = Rows::of(matrix).row(i).map(|(j, block)| (j, *block));
+            let diagonal = self.couplings.set_row(i, row);
+            self.invert(i, &diagonal);
+        }
+    }
+
+    fn refresh_sets(&mut self) {
+        if let Some(matrix) = &self.matrix {
+            self.sets.refresh(&Rows::of(matrix), &self.dropped);
+        }
+    }
+
     /// Computes all values from the finer level.
-    pub(super) fn assemble(&mut self, finer: &Self, transfer: &Transfer) {
+    pub(super) fn assemble(
+        &mut self,
+        fine: Entries<'_, C>,
+        frames: &Frames<C>,
+        transfer: &Transfer,
+    ) {
         self.dropped.copy_from_slice(&self.fixed);
         let product = Product {
-            fine: finer,
+            fine,
+            frames,
             transfer,
             dropped: &self.dropped,
         };
-        let rows = RowsMut::of(&mut self.matrix);
-        product.assemble(&self.cuts, rows, &mut self.positions);
-        for row in 0..self.matrix.rows() {
+        if let Some(matrix) = &mut self.matrix {
+            product.assemble(&self.cuts, RowsMut::of(matrix), &mut self.positions);
+        }
+        for row in 0..self.size() {
             self.complete(row);
         }
     }
 
     /// Computes the values of the strip from the finer level.
-    pub(super) fn refresh(&mut self, finer: &Self, transfer: &Transfer) {
+    pub(super) fn refresh(&mut self, finer: &Self, operator: &BlockMatrix<C>, transfer: &Transfer) {
         for &(coarse, fine) in &self.copies {
             let fine = fine as usize;
             self.dropped[coarse as usize] = finer.seen(fine, &finer.dropped[fine]);
@@ -293,48 +315,46 @@ impl<const C: usize> Level<C> {
         for s in 0..self.strip.len() {
             let row = self.strip[s] as usize;
             let product = Product {
-                fine: finer,
+                fine: finer.entries(operator),
+                frames: &finer.frames,
                 transfer,
                 dropped: &self.dropped,
             };
-            product.renew(row, RowsMut::of(&mut self.matrix), &mut self.positions);
+            if let Some(matrix) = &mut self.matrix {
+                product.renew(row, RowsMut::of(matrix), &mut self.positions);
+            }
             self.complete(row);
         }
-        self.sets.refresh(&Rows::of(&self.matrix), &self.dropped);
+        self.refresh_sets();
     }
 
     /// Finds the sets of the line smoother: vertices that stretched cells couple strongly.
-    pub(super) fn tie(&mut self) {
-        let rows = Rows::of(&self.matrix);
-        self.sets.tie(&rows, &self.dropped, &self.strip);
-    }
-
-    /// Copies a row of the operator without the dropped rows and columns.
-    fn copy_row(&mut self, operator: &BlockMatrix<C>, i: usize) {
-        let source = Rows::of(operator);
-        let range = source.range(i);
-        let dropped = &self.dropped;
-        let target = &mut self.matrix.data_mut()[range.clone()];
-        for ((target, value), &j) in target
-            .iter_mut()
-            .zip(&source.values[range.clone()])
-            .zip(&source.columns[range])
-        {
-            *target = without(value, &dropped[i], &dropped[j as usize]);
-        }
-    }
-
-    /// Completes a row for cycles and inverts its diagonal block; false if that is not positive definite.
-    fn complete(&mut self, i: usize) -> bool {
-        let before = Rows::of(&self.before).range(i);
-        let mut row = Rows::of(&self.matrix).row(i);
-        for k in before {
-            let column = self.before.indices()[k] as usize;
-            if let Some((_, value)) = row.find(|&(j, _)| j == column) {
-                self.before.data_mut()[k] = *value;
+    pub(super) fn tie(&mut self, operator: &BlockMatrix<C>) {
+        let entries = match &self.matrix {
+            Some(matrix) => Entries {
+                rows: Rows::of(matrix),
+                dropped: &self.dropped,
+                frictional: &[],
+                hessians: &[],
+            },
+            None => Entries {
+                rows: Rows::of(operator),
+                dropped: &self.dropped,
+                frictional: &self.frictional,
+                hessians: &self.hessians,
+            },
+        };
+        if self.sets.find_all(entries) {
+            self.keep_matrix(operator);
+            if let Some(matrix) = &self.matrix {
+                let rows = Rows::of(matrix);
+                self.sets.factorize_all(&rows, &self.dropped, &self.strip);
             }
         }
-        let block = &self.matrix.data()[self.diagonals[i] as usize];
+    }
+
+    /// Inverts the diagonal block of a row; false if it is not positive definite.
+    fn invert(&mut self, i: usize, block: &SMatrix<f64, C, C>) -> bool {
         match inverse(block, &self.dropped[i]) {
             Some(inverse) => {
                 self.inverses[i] = inverse;
@@ -349,20 +369,10 @@ impl<const C: usize> Level<C> {
     }
 }
 
-/// The pattern of the entries whose column a forward sweep visits before the row, with zero values.
-fn before<const C: usize>(matrix: &BlockMatrix<C>, slabs: &Colouring) -> BlockMatrix<C> {
-    let rows = Rows::of(matrix);
-    let (mut starts, mut columns) = (vec![0], Vec::new());
-    slabs.for_each(|slab, narrow| {
-        for i in slab.clone() {
-            let row = &rows.columns[rows.range(i)];
-            columns.extend(row.iter().filter(|&&j| {
-                let j = j as usize;
-                if slab.contains(&j) { j < i } else { narrow }
-            }));
-            starts.push(columns.len() as u32);
-        }
-    });
-    let values = vec![SMatrix::zeros(); columns.len()];
-    BlockMatrix::new((matrix.rows(), matrix.cols()), starts, columns, values)
+/// Copies a row of the finest level.
+fn copy_row<const C: usize>(matrix: &mut BlockMatrix<C>, entries: Entries<'_, C>, i: usize) {
+    let range = entries.rows.range(i);
+    for (target, (_, block)) in matrix.data_mut()[range].iter_mut().zip(entries.row(i)) {
+        *target = block;
+    }
 }

@@ -7,6 +7,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::entries::Entries;
 use crate::block::inverse;
 use crate::block_matrix::Rows;
 
@@ -57,18 +58,23 @@ impl<const C: usize> Sets<C> {
         self.begins.len().saturating_sub(1)
     }
 
-    /// Finds the sets of a matrix and factorises; `strip` are the rows that friction can change.
-    pub(super) fn tie(
+    /// Finds the sets of a matrix; false if there are none.
+    pub(super) fn find_all(&mut self, matrix: Entries<'_, C>) -> bool {
+        self.begins.clear();
+        let found = self.find(&matrix) && self.reserve(&matrix.rows);
+        if !found {
+            self.begins.clear();
+        }
+        found
+    }
+
+    /// Factorises all sets; `strip` are the rows that friction can change.
+    pub(super) fn factorize_all(
         &mut self,
         rows: &Rows<'_, SMatrix<f64, C, C>>,
         dropped: &[[bool; C]],
         strip: &[u32],
     ) {
-        self.begins.clear();
-        if !self.find(rows) || !self.reserve(rows) {
-            self.begins.clear();
-            return;
-        }
         self.touched.clear();
         self.touched
             .extend(strip.iter().map(|&vertex| self.owners[vertex as usize]));
@@ -128,15 +134,15 @@ impl<const C: usize> Sets<C> {
     }
 
     /// Finds the sets; false if cells are not stretched.
-    fn find(&mut self, rows: &Rows<'_, SMatrix<f64, C, C>>) -> bool {
-        let size = rows.starts.len() - 1;
+    fn find(&mut self, rows: &Entries<'_, C>) -> bool {
+        let size = rows.dropped.len();
         let others = |i: usize| rows.row(i).filter(move |&(j, _)| j != i);
         self.largest.clear();
-        self.largest.extend(
-            (0..size).map(|i| {
-                others(i).fold(0.0, |largest: f64, (_, block)| largest.max(coupling(block)))
-            }),
-        );
+        self.largest.extend((0..size).map(|i| {
+            others(i).fold(0.0, |largest: f64, (_, block)| {
+                largest.max(coupling(&block))
+            })
+        }));
         let coupled = self
             .largest
             .iter()
@@ -176,7 +182,7 @@ impl<const C: usize> Sets<C> {
     }
 
     /// Appends all vertices connected to a vertex, by increasing distance.
-    fn walk(&mut self, rows: &Rows<'_, SMatrix<f64, C, C>>, start: usize) {
+    fn walk(&mut self, rows: &Entries<'_, C>, start: usize) {
         let mut next = self.order.len();
         self.places[start] = next as u32;
         self.order.push(start as u32);
@@ -184,7 +190,7 @@ impl<const C: usize> Sets<C> {
             next += 1;
             for (j, block) in rows.row(vertex as usize) {
                 let largest = self.largest[vertex as usize].min(self.largest[j]);
-                let strength = coupling(block);
+                let strength = coupling(&block);
                 if self.places[j] == NONE && strength > 0.0 && strength >= STRONG * largest {
                     self.places[j] = self.order.len() as u32;
                     self.order.push(j as u32);

@@ -5,16 +5,20 @@
 //! product over the body.
 
 mod coarse;
+mod couplings;
 mod cycle;
+mod entries;
 mod galerkin;
 mod level;
 mod line_smoother;
 mod linked_transfers;
+mod packed;
 mod slab_cycle;
 mod smoother;
 #[cfg(test)]
 mod tests;
 mod tied_cycle;
+mod transfer;
 mod whole;
 
 pub(crate) use level::Linearization;
@@ -26,7 +30,8 @@ use crate::colouring::Colouring;
 use crate::energy::expect;
 use crate::{Basis, BlockMatrix, MeshId, Prolongation, SolveError, Transfers};
 use coarse::CoarseSolver;
-use level::{Cut, Fields, Level, Transfer};
+use level::{Cut, Fields, Level};
+use transfer::Transfer;
 use whole::Whole;
 
 /// A hierarchy of operators, coarsest first, and the cycle on it.
@@ -43,6 +48,8 @@ pub(crate) struct Multigrid<const C: usize> {
     /// Rows at the ends of wide slabs of the finest level.
     edges: Vec<SVector<f64, C>>,
     cut: Cut,
+    /// Whether the couplings are in single precision.
+    pub(crate) single: bool,
     /// The vertices whose rows can change; the strips of `levels` were made for them.
     frictional: Vec<usize>,
     coarse: Option<CoarseSolver<C>>,
@@ -80,6 +87,7 @@ impl<const C: usize> Multigrid<C> {
             fields: Vec::new(),
             edges: Vec::new(),
             cut: Colouring::new,
+            single: false,
             frictional: Vec::new(),
             coarse: None,
             whole: Whole::default(),
@@ -95,6 +103,7 @@ impl<const C: usize> Multigrid<C> {
         let (transfers, refused) = (self.transfers.clone(), self.refused.clone());
         Self {
             cut: self.cut,
+            single: self.single,
             basis: self.basis.clone(),
             unlinked: self.unlinked.clone(),
             ..Self::on(transfers, refused, self.mesh, (self.pre, self.post))
@@ -147,13 +156,21 @@ impl<const C: usize> Multigrid<C> {
                 .is_some_and(|finest| finest.same_pattern(operator, fixed));
         if !reusable {
             self.frictional = frictional.to_vec();
-            let finest = Level::finest(operator, self.cut, fixed, frictional, &self.basis.axes);
+            let how = (self.cut, self.single);
+            let mut finest = Level::finest(operator, how, fixed, frictional, &self.basis.axes);
+            if self.transfers.is_empty() || self.post == 0 {
+                finest.keep_matrix(operator);
+            }
             let edges = slab_cycle::edge_count(&finest.slabs) * finest.slabs.wide_count();
             self.edges = vec![SVector::zeros(); edges];
             self.levels = vec![finest];
             for transfer in self.transfers.iter().rev() {
                 let finer = &self.levels[self.levels.len() - 1];
-                let coarser = Level::coarsened(finer, self.cut, transfer);
+                let fine = match &finer.matrix {
+                    Some(matrix) => matrix,
+                    None => operator,
+                };
+                let coarser = Level::coarsened(finer, fine, how, transfer);
                 self.levels.push(coarser);
             }
             self.levels.reverse();
@@ -161,7 +178,8 @@ impl<const C: usize> Multigrid<C> {
                 .iter()
                 .map(Fields::of)
                 .collect();
-            self.coarse = Some(CoarseSolver::analyse(&self.levels[0].matrix)?);
+            let coarsest = self.levels[0].matrix.as_ref();
+            self.coarse = coarsest.map(CoarseSolver::analyse).transpose()?;
             self.whole = Whole::default();
         }
         self.whole.in_use = false;
@@ -169,15 +187,16 @@ impl<const C: usize> Multigrid<C> {
         self.levels[finest].restore(operator);
         for l in (0..finest).rev() {
             let (coarser, finer) = self.levels.split_at_mut(l + 1);
-            coarser[l].assemble(&finer[0], &self.transfers[l]);
+            let (fine, frames) = (finer[0].entries(operator), &finer[0].frames);
+            coarser[l].assemble(fine, frames, &self.transfers[l]);
         }
         for level in &mut self.levels[1..] {
-            level.tie();
+            level.tie(operator);
         }
-        if let Some(coarse) = &mut self.coarse {
+        if let (Some(coarse), Some(matrix)) = (&mut self.coarse, &self.levels[0].matrix) {
             // faer takes memory of a thread's own the first time. Whether the matrix is definite is asked
             // when friction has been added.
-            let _ = coarse.factorize(&self.levels[0].matrix);
+            let _ = coarse.factorize(matrix);
         }
         Ok(())
     }
@@ -192,16 +211,15 @@ impl<const C: usize> Multigrid<C> {
         self.levels[finest].linearize(operator, linearization)?;
         for l in (0..finest).rev() {
             let (coarser, finer) = self.levels.split_at_mut(l + 1);
-            coarser[l].refresh(&finer[0], &self.transfers[l]);
+            coarser[l].refresh(&finer[0], operator, &self.transfers[l]);
         }
         if self.whole.in_use {
             self.whole.factorize(&self.levels[finest]);
         }
-        let level = &self.levels[0];
-        let Some(coarse) = &mut self.coarse else {
+        let (Some(coarse), Some(matrix)) = (&mut self.coarse, &self.levels[0].matrix) else {
             return Ok(());
         };
-        let factorized = coarse.factorize(&level.matrix);
+        let factorized = coarse.factorize(matrix);
         factorized.map_err(|error| match error {
             SolveError::RigidBodyMode { vertex } => SolveError::RigidBodyMode {
                 vertex: self.on_finest(vertex),
@@ -222,9 +240,19 @@ impl<const C: usize> Multigrid<C> {
         transfers.fold(coarse, |vertex, transfer| transfer.copy_of(vertex))
     }
 
-    /// The matrix of the finest level as of the last refresh.
-    pub(crate) fn matrix(&self) -> &BlockMatrix<C> {
-        &self.levels[self.levels.len() - 1].matrix
+    /// `x . H x` by the matrix of the finest level as of the last refresh, of a field without dropped components.
+    pub(crate) fn quadratic(&self, operator: &BlockMatrix<C>, x: &[SVector<f64, C>]) -> f64 {
+        let finest = &self.levels[self.levels.len() - 1];
+        finest.of_operator(operator).quadratic(x)
+    }
+
+    /// A bound on the part of `x . H x` that the rounding of couplings changes, if a cycle reads them.
+    pub(crate) fn rounding(&self, x: &[SVector<f64, C>]) -> f64 {
+        let finest = &self.levels[self.levels.len() - 1];
+        if self.whole.in_use || self.levels.len() == 1 || !finest.sets.is_empty() {
+            return 0.0;
+        }
+        finest.couplings.rounding(x)
     }
 
     /// The inverse of a diagonal block of the finest level on its kept components.
@@ -244,9 +272,12 @@ impl<const C: usize> Multigrid<C> {
 
     /// Replaces so many further cycles of a problem by an exact solve, until [`cycle_again`](Self::cycle_again); false
     /// if that costs more, or the cycle is exact already.
-    pub(crate) fn replace_cycles(&mut self, ahead: f64) -> bool {
-        let finest = &self.levels[self.levels.len() - 1];
-        !self.transfers.is_empty() && !self.whole.in_use && self.whole.replace_cycles(ahead, finest)
+    pub(crate) fn replace_cycles(&mut self, operator: &BlockMatrix<C>, ahead: f64) -> bool {
+        let last = self.levels.len() - 1;
+        let finest = &mut self.levels[last];
+        !self.transfers.is_empty()
+            && !self.whole.in_use
+            && self.whole.replace_cycles(ahead, finest, operator)
     }
 
     /// One cycle from zero for the right-hand side `residual`, whose dropped components are zero; `image` becomes the

@@ -11,21 +11,22 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 
-use super::level::{Level, Transfer};
+use super::level::Level;
+use super::packed::{Before, Coupling};
 use super::smoother::{Smoother, Sweep, interpolated, parents};
-use crate::block_matrix::{Rows, partial_product};
+use super::transfer::Transfer;
+use crate::block_matrix::Rows;
 use crate::colouring::Colouring;
 use crate::parts::{Each, for_parts};
 
 /// `pre` forward sweeps from zero.
-pub(super) fn descend<const C: usize>(
-    level: &Level<C>,
+pub(super) fn descend<B: Coupling<C>, const C: usize>(
+    smoother: Smoother<'_, B, C>,
+    slabs: &Colouring,
     pre: usize,
-    residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],
     sums: &mut [SVector<f64, C>],
 ) {
-    let (smoother, slabs) = (Smoother::new(level, residual), &level.slabs);
     for sweep in 0..pre {
         let sweep = Sweep {
             first: sweep == 0,
@@ -43,8 +44,8 @@ pub(super) fn descend<const C: usize>(
 /// Some rows of a forward sweep. The compiler sees that separate arguments of a function that is not inlined do not
 /// overlap; parts of a tuple may.
 #[inline(never)]
-fn forward<const C: usize>(
-    smoother: &Smoother<'_, C>,
+fn forward<B: Coupling<C>, const C: usize>(
+    smoother: &Smoother<'_, B, C>,
     rows: Range<usize>,
     sweep: Sweep,
     first: usize,
@@ -58,8 +59,8 @@ fn forward<const C: usize>(
 
 /// Some rows of a backward sweep, the last one first.
 #[inline(never)]
-fn backward<const C: usize>(
-    smoother: &Smoother<'_, C>,
+fn backward<B: Coupling<C>, const C: usize>(
+    smoother: &Smoother<'_, B, C>,
     rows: Range<usize>,
     is_last: bool,
     first: usize,
@@ -72,18 +73,14 @@ fn backward<const C: usize>(
 }
 
 /// `P^T` of the remaining residual.
-pub(super) fn restrict<const C: usize, const FRAMES: bool>(
-    level: &Level<C>,
+pub(super) fn restrict<B: Coupling<C>, const C: usize, const FRAMES: bool>(
+    smoother: Smoother<'_, B, C>,
     swept: bool,
-    residual: &[SVector<f64, C>],
     sums: &[SVector<f64, C>],
     transfer: &Transfer,
     coarse: &mut [SVector<f64, C>],
 ) {
-    let (smoother, children) = (
-        Smoother::new(level, residual),
-        Rows::of(&transfer.restriction),
-    );
+    let children = Rows::of(&transfer.restriction);
     for_parts(0..coarse.len(), coarse, &|part, coarse| {
         for (coarse, parent) in coarse.iter_mut().zip(part) {
             *coarse = SVector::zeros();
@@ -97,8 +94,9 @@ pub(super) fn restrict<const C: usize, const FRAMES: bool>(
 /// Adds `P coarse` to the correction, then `post` backward sweeps and, on request, the product of matrix and correction
 /// in `sums`.
 #[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
-pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
+pub(super) fn ascend<B: Coupling<C>, const C: usize, const IMAGE: bool, const FRAMES: bool>(
     level: &Level<C>,
+    before: Before<'_, B>,
     post: usize,
     residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],
@@ -107,7 +105,7 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
     transfer: &Transfer,
     coarse: &[SVector<f64, C>],
 ) {
-    let (smoother, slabs) = (Smoother::new(level, residual), &level.slabs);
+    let (smoother, slabs) = (Smoother::new(level, before, residual), &level.slabs);
     let parents = parents(transfer);
     let prolong = |i: usize, x: &mut SVector<f64, C>, sum: &mut SVector<f64, C>| {
         *x += interpolated::<C, FRAMES>(level, &parents, i, coarse);
@@ -160,8 +158,8 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
 }
 
 /// A wide slab in one of the backward sweeps, with fields from row `first` on.
-struct Wide<'a, const C: usize> {
-    smoother: Smoother<'a, C>,
+struct Wide<'a, B, const C: usize> {
+    smoother: Smoother<'a, B, C>,
     slabs: &'a Colouring,
     k: usize,
     first: usize,
@@ -169,7 +167,7 @@ struct Wide<'a, const C: usize> {
     is_last: bool,
 }
 
-impl<const C: usize> Wide<'_, C> {
+impl<B: Coupling<C>, const C: usize> Wide<'_, B, C> {
     /// Row by row at the distance of the bandwidth: interpolation, sweep, product.
     #[inline(never)]
     fn ascend<const IMAGE: bool>(
@@ -202,8 +200,8 @@ impl<const C: usize> Wide<'_, C> {
 
 /// The contribution to the product at row `i` of narrow slab `k` of the changes before it, its own and those at the
 /// ends of its neighbours.
-fn narrow_product<const C: usize>(
-    smoother: &Smoother<'_, C>,
+fn narrow_product<B: Coupling<C>, const C: usize>(
+    smoother: &Smoother<'_, B, C>,
     slabs: &Colouring,
     k: usize,
     i: usize,
@@ -212,16 +210,15 @@ fn narrow_product<const C: usize>(
     edges: &[SVector<f64, C>],
 ) -> SVector<f64, C> {
     let (before, rows) = (&smoother.before, slabs.narrow(k));
-    let range = before.range(i);
-    let (columns, blocks) = (&before.columns[range.clone()], &before.values[range]);
+    let columns = before.columns(i);
     let begin = columns.partition_point(|&j| (j as usize) < rows.start);
     let end = columns.partition_point(|&j| (j as usize) < rows.end);
-    let mut product = partial_product(&columns[begin..end], &blocks[begin..end], first, changes);
+    let mut product = before.partial_product(i, begin..end, first, changes);
     for n in (0..begin).chain(end..columns.len()) {
         let j = columns[n] as usize;
         let wide = k + usize::from(j >= rows.end);
         if let Some(edge) = edge(slabs, wide, j) {
-            product += blocks[n] * edges[wide * edge_count(slabs) + edge];
+            product += before.times(i, n, &edges[wide * edge_count(slabs) + edge]);
         }
     }
     product

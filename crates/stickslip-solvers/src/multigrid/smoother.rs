@@ -1,9 +1,11 @@
 //! The sweeps of a cycle at one row, for any order of the rows.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use super::level::{Level, Transfer};
-use crate::block_matrix::{Rows, add_transposed_row, row_product_behind};
+use super::level::Level;
+use super::packed::{Before, Coupling};
+use super::transfer::Transfer;
+use crate::block_matrix::Rows;
 use crate::field::clear_masked;
 
 /// The position among the forward sweeps. The first starts from zero. The last stores in `sums` the change of the rows
@@ -20,15 +22,18 @@ pub(super) struct Sweep {
 /// fields that they change begin at vertex `first`. They are separate arguments, from which the compiler sees that they
 /// do not overlap.
 #[derive(Clone, Copy)]
-pub(super) struct Smoother<'a, const C: usize> {
+pub(super) struct Smoother<'a, B, const C: usize> {
     level: &'a Level<C>,
-    pub(super) before: Rows<'a, SMatrix<f64, C, C>>,
+    pub(super) before: Before<'a, B>,
     residual: &'a [SVector<f64, C>],
 }
 
-impl<'a, const C: usize> Smoother<'a, C> {
-    pub(super) fn new(level: &'a Level<C>, residual: &'a [SVector<f64, C>]) -> Self {
-        let before = Rows::of(&level.before);
+impl<'a, B: Coupling<C>, const C: usize> Smoother<'a, B, C> {
+    pub(super) fn new(
+        level: &'a Level<C>,
+        before: Before<'a, B>,
+        residual: &'a [SVector<f64, C>],
+    ) -> Self {
         Self {
             level,
             before,
@@ -57,9 +62,9 @@ impl<'a, const C: usize> Smoother<'a, C> {
         } else {
             SVector::zeros()
         };
-        let rest = self.residual[i] - behind - row_product_behind(&self.before, i, first, x);
+        let rest = self.residual[i] - behind - self.before.product(i, first, x);
         x[at] = self.level.inverses[i] * rest;
-        add_transposed_row(&self.before, i, &x[at], first, sums);
+        self.before.scatter(i, &x[at], first, sums);
     }
 
     /// A row of a backward sweep. The last sweep stores the change of the row in `sums`, which the product needs;
@@ -74,9 +79,9 @@ impl<'a, const C: usize> Smoother<'a, C> {
         sums: &mut [SVector<f64, C>],
     ) {
         let at = i - first;
-        let rest = self.residual[i] - row_product_behind(&self.before, i, first, x) - sums[at];
+        let rest = self.residual[i] - self.before.product(i, first, x) - sums[at];
         let new = self.level.inverses[i] * rest;
-        add_transposed_row(&self.before, i, &new, first, sums);
+        self.before.scatter(i, &new, first, sums);
         sums[at] = if last { new - x[at] } else { SVector::zeros() };
         x[at] = new;
     }
@@ -90,7 +95,7 @@ impl<'a, const C: usize> Smoother<'a, C> {
         first: usize,
         changes: &[SVector<f64, C>],
     ) -> SVector<f64, C> {
-        self.residual[i] + row_product_behind(&self.before, i, first, changes)
+        self.residual[i] + self.before.product(i, first, changes)
     }
 
     /// The residual of a row for the coarse level, in the coordinates: the later changes of the rows after it, or the

@@ -4,6 +4,7 @@
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use proptest::prelude::*;
 
+use super::couplings::Couplings;
 use super::{Linearization, Multigrid};
 use crate::block_matrix::Rows;
 use crate::colouring::Colouring;
@@ -155,12 +156,13 @@ proptest! {
         let fixed = [[false; 2]; SIZES[FINEST]];
         multigrid.prepare(&operator, &fixed, &[])?;
         for level in &mut multigrid.levels[..FINEST] {
-            let size = level.matrix.rows();
+            let size = level.size();
             let mut cuts: Vec<_> = cuts.iter().map(|cut| (cut * size as f64) as usize).collect();
             cuts.sort_unstable();
             level.cuts = [vec![0], cuts, vec![size]].concat();
             level.positions = vec![0; size * (level.cuts.len() - 1)];
-            level.matrix.data_mut().fill(Matrix2::repeat(7.0));
+            let matrix = level.matrix.as_mut().expect("coarse");
+            matrix.data_mut().fill(Matrix2::repeat(7.0));
         }
         multigrid.prepare(&operator, &fixed, &[])?;
         let mut expected = dense(&operator);
@@ -170,7 +172,8 @@ proptest! {
                 if i % 2 == j % 2 { prolongation[[i / 2, j / 2]] } else { 0.0 }
             });
             expected = prolongation.tr_mul(&expected) * prolongation;
-            prop_assert!((dense(&level.matrix) - &expected).amax() < 1e-12);
+            let matrix = level.matrix.as_ref().expect("coarse");
+            prop_assert!((dense(matrix) - &expected).amax() < 1e-12);
         }
     }
 
@@ -204,7 +207,7 @@ proptest! {
 
         let matrix = dense(&operator);
         let slabs: Vec<_> = (multigrid.levels.iter())
-            .map(|level| (multigrid.cut)(level.matrix.rows(), Rows::of(&level.matrix).bandwidth()))
+            .map(|level| (multigrid.cut)(level.size(), level.entries(&operator).rows.bandwidth()))
             .collect();
         prop_assert_eq!(slabs[FINEST].wide_count(), if is_cut { 4 } else { 1 });
         let expected = cycle(FINEST, &slabs, &matrix, &DVector::from_vec(rest), pre, post);
@@ -214,6 +217,53 @@ proptest! {
                 prop_assert!((correction[i][c] - expected[2 * i + c]).abs() < 1e-12);
                 prop_assert!((image[i][c] - product[2 * i + c]).abs() < 1e-11);
             }
+        }
+    }
+
+    /// The matrix of couplings in single precision is symmetric, and differs from that in double precision by no more than
+    /// its bound, whatever the unit of a row: also for a field that is large and nearly constant.
+    #[test]
+    fn rounded_couplings_are_within_their_bound(
+        values in prop::collection::vec(0.0..1.0, 330),
+        is_cut in prop::bool::ANY,
+        rest in prop::collection::vec(-1.0..1.0, 66),
+        exponent in -300..300_i32,
+        shift in -1e4..1e4_f64,
+    ) {
+        let mut operator = operator(&values, &[false; SIZES[FINEST]]);
+        let unit = 2f64.powi(exponent);
+        operator.data_mut().iter_mut().for_each(|block| *block *= unit);
+        let size = operator.rows();
+        let slabs = if is_cut { Colouring::of(size, Rows::of(&operator).bandwidth(), 0) } else { Colouring::of(size, 0, size) };
+        let mut couplings = Couplings::of(&operator, &slabs, true);
+        let mut rounded = DMatrix::zeros(2 * size, 2 * size);
+        for i in 0..size {
+            let diagonal = couplings.set_row(i, Rows::of(&operator).row(i).map(|(j, block)| (j, *block)));
+            rounded.fixed_view_mut::<2, 2>(2 * i, 2 * i).copy_from(&diagonal);
+        }
+        let Couplings::Single(packed) = &couplings else { unreachable!() };
+        for i in 0..size {
+            for (entry, &j) in packed.rows().columns(i).iter().enumerate() {
+                for c in 0..2 {
+                    let mut axis = Vector2::zeros();
+                    axis[c] = 1.0;
+                    let column = packed.rows().times(i, entry, &axis);
+                    for r in 0..2 {
+                        rounded[(2 * i + r, 2 * j as usize + c)] = column[r];
+                        rounded[(2 * j as usize + c, 2 * i + r)] = column[r];
+                    }
+                }
+            }
+        }
+        let changed = (rounded - dense(&operator)) / unit;
+        prop_assert!(changed.amax() > 0.0);
+        for shift in [0.0, shift] {
+            let x = DVector::from_iterator(2 * size, rest.iter().map(|rest| shift + rest));
+            let fields: Vec<_> = rest.chunks(2).map(|rest| Vector2::new(shift + rest[0], shift + rest[1])).collect();
+            let change = x.dot(&(&changed * &x)).abs();
+            let roundings = 1e-14 * x.norm_squared();
+            let bound = couplings.rounding(&fields) / unit;
+            prop_assert!(change <= bound + roundings, "{change:e}, {bound:e}");
         }
     }
 }

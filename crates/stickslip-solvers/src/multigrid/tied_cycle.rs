@@ -1,8 +1,9 @@
 //! The cycle on a level with a line smoother: sweeps over the sets, in separate passes.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
-use super::level::{Level, Transfer};
+use super::level::Level;
+use super::transfer::Transfer;
 use crate::block_matrix::{Rows, row_product};
 use crate::field::clear_masked;
 
@@ -16,11 +17,14 @@ pub(super) fn descend<const C: usize>(
     transfer: &Transfer,
     coarse: &mut [SVector<f64, C>],
 ) {
-    let (rows, parents) = (Rows::of(&level.matrix), Rows::of(&transfer.prolongation));
+    let Some(matrix) = &level.matrix else {
+        return;
+    };
+    let (rows, parents) = (Rows::of(matrix), Rows::of(&transfer.prolongation));
     x.fill(SVector::zeros());
     for _ in 0..pre {
         for set in 0..level.sets.len() {
-            balance(level, set, residual, x, sums);
+            balance(level, &rows, set, residual, x, sums);
         }
     }
     coarse.fill(SVector::zeros());
@@ -44,7 +48,10 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool>(
     transfer: &Transfer,
     coarse: &[SVector<f64, C>],
 ) {
-    let (rows, parents) = (Rows::of(&level.matrix), Rows::of(&transfer.prolongation));
+    let Some(matrix) = &level.matrix else {
+        return;
+    };
+    let (rows, parents) = (Rows::of(matrix), Rows::of(&transfer.prolongation));
     for i in 0..x.len() {
         let mut step = SVector::zeros();
         for (parent, &weight) in parents.row(i) {
@@ -56,7 +63,7 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool>(
     }
     for _ in 0..post {
         for set in (0..level.sets.len()).rev() {
-            balance(level, set, residual, x, sums);
+            balance(level, &rows, set, residual, x, sums);
         }
     }
     if IMAGE {
@@ -69,14 +76,14 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool>(
 /// Solves for the unknowns of a set, with all others fixed.
 fn balance<const C: usize>(
     level: &Level<C>,
+    rows: &Rows<'_, SMatrix<f64, C, C>>,
     set: usize,
     residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],
     rest: &mut [SVector<f64, C>],
 ) {
-    let rows = Rows::of(&level.matrix);
     for i in level.sets.vertices(set) {
-        rest[i] = residual[i] - row_product(&rows, i, x);
+        rest[i] = residual[i] - row_product(rows, i, x);
     }
     level.sets.solve(set, rest);
     for i in level.sets.vertices(set) {

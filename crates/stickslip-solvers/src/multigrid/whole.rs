@@ -8,6 +8,7 @@ use nalgebra::SVector;
 
 use super::coarse::CoarseSolver;
 use super::level::Level;
+use crate::BlockMatrix;
 
 /// Cycles between two tests of the convergence rate of a linear problem.
 pub(crate) const LOOK: usize = 4;
@@ -28,18 +29,23 @@ pub(super) struct Whole<const C: usize> {
 
 impl<const C: usize> Whole<C> {
     /// Replaces so many cycles by a factor of the level, if it costs less; allocates at the first call.
-    pub(super) fn replace_cycles(&mut self, ahead: f64, level: &Level<C>) -> bool {
-        let matrix = &level.matrix;
-        let unknowns = C * matrix.rows();
+    pub(super) fn replace_cycles(
+        &mut self,
+        ahead: f64,
+        level: &mut Level<C>,
+        operator: &BlockMatrix<C>,
+    ) -> bool {
+        let unknowns = C * level.size();
         if !(ahead > LEAST && unknowns <= UNKNOWNS) {
             return false;
         }
+        level.keep_matrix(operator);
         if self.solver.is_none() {
-            let solver = CoarseSolver::analyse(matrix).ok();
+            let solver = CoarseSolver::analyse(operator).ok();
             self.solver = solver.map(|solver| {
                 // The square of a column's mean length for each column.
                 let operations = (solver.entries() as f64).powi(2) / unknowns as f64;
-                let entries = (C * C * matrix.nnz()) as f64;
+                let entries = (C * C * operator.nnz()) as f64;
                 (solver, LEAST.max(operations / entries / A_CYCLE))
             });
         }
@@ -51,8 +57,8 @@ impl<const C: usize> Whole<C> {
 
     /// Factorises the current level; cycles return if rounding has made it indefinite.
     pub(super) fn factorize(&mut self, level: &Level<C>) {
-        let solver = self.solver.as_mut();
-        self.in_use = solver.is_some_and(|(solver, _)| solver.factorize(&level.matrix).is_ok());
+        let parts = self.solver.as_mut().zip(level.matrix.as_ref());
+        self.in_use = parts.is_some_and(|((solver, _), matrix)| solver.factorize(matrix).is_ok());
     }
 
     pub(super) fn solve(

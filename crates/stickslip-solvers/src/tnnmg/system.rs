@@ -24,6 +24,8 @@ pub(super) struct SparseSystem<'a, const C: usize> {
     pub(super) cycles: usize,
     /// Square of the error of the last linear step, in the norm of the Newton matrix.
     pub(super) linear_error: f64,
+    /// `d . H d` of that step.
+    pub(super) curvature: f64,
     pub(super) sweep: &'a Sweep<C>,
     pub(super) multigrid: &'a mut Multigrid<C>,
     pub(super) linear: &'a mut LinearSystem<C>,
@@ -91,6 +93,18 @@ impl<const C: usize> SparseSystem<'_, C> {
             .sum()
     }
 
+    /// The square of the part of the step that is due to the rounding of the blocks, in the norm of the Newton matrix:
+    /// with `|d . E d| <= r` for the rounding error `E` of the matrix `H`, the step `d` of `(H + E) d = b` is
+    /// `H^-1 E d` away from that of `H`, of the order of `r/sqrt(d . H d)`.
+    fn rounding_error(&self) -> f64 {
+        let rounding = self.multigrid.rounding(&self.linear.correction);
+        if rounding > 0.0 {
+            rounding * rounding / self.curvature
+        } else {
+            0.0
+        }
+    }
+
     /// The same for the truncated vertices, outside the linear step: their change by the next sweep.
     fn truncated_error(&self, models: &Models<C>, v: &[SVector<f64, C>]) -> f64 {
         let truncated = models.truncated.iter().enumerate();
@@ -139,11 +153,13 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
             LinearStep::Cycle => self.linear.one_cycle(self.multigrid),
             LinearStep::ConjugateGradients { max_cycles, .. } => {
                 let reduction = self.reduction;
-                (self.linear).conjugate_gradients(self.multigrid, reduction, target, max_cycles)
+                let problem = (&mut *self.multigrid, self.energy.operator);
+                (self.linear).conjugate_gradients(problem, reduction, target, max_cycles)
             }
         };
         self.cycles += step.cycles;
         self.linear_error = step.error;
+        self.curvature = step.curvature;
         Aim {
             decrease: step.decrease,
             curvature: step.curvature,
@@ -164,7 +180,7 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         }
         Aim {
             decrease: dot(image, &self.linear.correction),
-            curvature: self.multigrid.matrix().quadratic(&self.linear.correction),
+            curvature: (self.multigrid).quadratic(self.energy.operator, &self.linear.correction),
         }
     }
 
@@ -189,7 +205,7 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         let target = self.target();
         let mut left = self.linear_error + self.mismatch(models);
         if left <= target {
-            left += self.truncated_error(models, v);
+            left += self.rounding_error() + self.truncated_error(models, v);
         }
         let error = (self.stopping.equivalence * left).sqrt();
         Ok((left <= target).then_some(error))

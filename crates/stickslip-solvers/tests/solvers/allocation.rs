@@ -46,6 +46,8 @@ fn no_solver_allocates() -> Fallible {
         allocates_nothing(&problem, &mut Tnnmg::new(&problem.transfers))?;
         let problem = block(1, regime, 1)?;
         allocates_nothing(&problem, &mut Tnnmg::new(&problem.transfers))?;
+        let single = Tnnmg::new(&problem.transfers).in_single_precision();
+        allocates_nothing(&problem, &mut { single })?;
         allocates_nothing(&problem, &mut BlockGaussSeidel::new())?;
     }
     Ok(())

@@ -20,5 +20,6 @@ mod operators;
 mod point;
 mod preparation;
 mod reduction;
+mod single_precision;
 #[cfg(feature = "rayon")]
 mod threads;

@@ -30,7 +30,7 @@ fn inside<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
 }
 
 /// A layer of 33 000 vertices whose base slides where its weight is small, by both multigrid solvers.
-fn solve() -> Solved {
+fn solve(single_precision: bool) -> Solved {
     let space = P1::grid([2.0, 1.0], [2, 1])
         .and_then(|space| space.refined(7))
         .expect("a layer");
@@ -70,6 +70,9 @@ fn solve() -> Solved {
         max_iterations: 100,
     };
     let mut solver = Tnnmg::new(space.transfers());
+    if single_precision {
+        solver = solver.in_single_precision();
+    }
     solver.prepare(&energy).expect("prepared");
     solver.minimize(&energy, &stopping, &mut v).expect("solved");
 
@@ -160,11 +163,14 @@ fn the_bits_of_two_sides_do_not_depend_on_the_threads() {
 
 #[test]
 fn the_bits_do_not_depend_on_the_threads() {
-    let [alone, two, three] = [1, 2, 3].map(|threads| inside(threads, solve));
-    assert!(alone.0.iter().any(|v| v[0] > 0.0 && v[0] < 1.0));
-    assert!(alone == two && alone == three);
-    // From outside, in the pool that there is for all.
-    assert!(alone == solve());
+    for single_precision in [false, true] {
+        let solve = || solve(single_precision);
+        let [alone, two, three] = [1, 2, 3].map(|threads| inside(threads, solve));
+        assert!(alone.0.iter().any(|v| v[0] > 0.0 && v[0] < 1.0));
+        assert!(alone == two && alone == three);
+        // From outside, in the pool that there is for all.
+        assert!(alone == solve());
+    }
 }
 
 /// A long contact: a dense operator that couples all of its vertices, a part of which slides, another one at rest.
