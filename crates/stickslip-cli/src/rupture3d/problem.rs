@@ -1,18 +1,14 @@
 //! The faults, in terms of half the slip.
 
-use std::f64::consts::PI;
-
 use stickslip::fem::Trace;
-use stickslip::friction::LinearWeakening;
 use stickslip::nalgebra::Vector3;
 use stickslip::state::{LogTheta, SlipWeakening, Weakening};
 use stickslip::{Contact, Operator, Scene};
 
 use super::Benchmark;
-use crate::rupture::{Law, aging_of, initial_of, smooth};
-
-/// Half the length of a side of the squares of TPV5 \[m\].
-const SQUARE: f64 = 1.5e3;
+use crate::rupture::{
+    Law, PATCHES, aging_of, cohesive_zone, covered, friction, initial_of, prestress, smooth,
+};
 
 impl Benchmark {
     /// Normal stress \[Pa\].
@@ -33,12 +29,7 @@ impl Benchmark {
         if self != Self::Tpv5 {
             return Law::Aging.shear();
         }
-        let squares = [(0.0, 81.6e6), (-7.5e3, 78e6), (7.5e3, 62e6)];
-        let mean = squares.map(|(middle, stress)| {
-            let share = covered(x - middle, spacing) * covered(depth - 7.5e3, spacing);
-            share * (stress - 70e6)
-        });
-        70e6 + mean.iter().sum::<f64>()
+        prestress(&PATCHES, x, spacing, covered(depth - 7.5e3, spacing))
     }
 
     /// The fully grown shear stress that nucleates the rupture \[Pa\].
@@ -55,7 +46,7 @@ impl Benchmark {
     pub fn weakening_length(self) -> f64 {
         let modulus = 2670.0 * 3464.0_f64.powi(2);
         match self {
-            Self::Tpv5 => 9.0 * PI / 32.0 * modulus * 0.4 / ((0.677 - 0.525) * self.normal()),
+            Self::Tpv5 => cohesive_zone(modulus),
             Self::Tpv101 | Self::Tpv102 => {
                 // Poisson's ratio of the wave speeds.
                 let ratio = (3464.0_f64 / 6000.0).powi(2);
@@ -79,10 +70,7 @@ impl Benchmark {
         match self {
             Self::Tpv5 => {
                 let slips = |[x, depth]: [f64; 2]| x.abs() <= 15e3 && depth <= 15e3;
-                let laws = fault.map(|x| LinearWeakening {
-                    static_friction: if slips(place(x)) { 0.677 } else { 1e4 },
-                    dynamic_friction: 0.525,
-                });
+                let laws = fault.map(|x| friction(slips(place(x))));
                 let contact = Contact::per_vertex(fault, laws, normal)
                     .with_state(SlipWeakening { slip_distance: 0.2 }, Weakening(0.0));
                 scene.with_contact(contact.with_free_normal().with_shear_stress(stress))
@@ -100,12 +88,6 @@ impl Benchmark {
             }
         }
     }
-}
-
-/// The share of an interval of a length about a place that is within a square about 0.
-fn covered(place: f64, length: f64) -> f64 {
-    let [low, high] = [place - 0.5 * length, place + 0.5 * length];
-    ((high.min(SQUARE) - low.max(-SQUARE)) / length).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
