@@ -41,7 +41,7 @@ const WITH_LAWS: &[&str] = &["slider", "spring-slider", "gmsh"];
 const A_STATE: &str = "friction with a state: another --law or --friction";
 const INERTIA: &str = "a body that is driven, without --compression";
 
-const RULES: [Rule; 16] = [
+const RULES: [Rule; 19] = [
     of_a_state("b"),
     of_a_state("slip_distance"),
     of_a_state("reference_velocity"),
@@ -91,6 +91,17 @@ const RULES: [Rule; 16] = [
         unused: |given| !given.has("driven"),
         is_for: "the opposite of a driven part: add --driven",
     },
+    Rule {
+        commands: &["rupture"],
+        argument: "scheme",
+        unused: |given| {
+            let weakens = given.is("problem", &["tpv5", "tpv6", "tpv205"]);
+            weakens && given.is("scheme", &["implicit"])
+        },
+        is_for: "friction of rate and state if implicit: --problem tpv101, tpv103 or tpv105",
+    },
+    of_two_sides("relaxation_distance"),
+    of_two_sides("relaxation_velocity"),
     of_measured("resolution"),
     of_measured("initial_velocity"),
     of_inertia("density"),
@@ -112,6 +123,15 @@ const fn of_measured(argument: &'static str) -> Rule {
         argument,
         unused: |given| given.has("steps") || given.has("steps_at"),
         is_for: "a measured displacement, without --steps and --steps-at",
+    }
+}
+
+const fn of_two_sides(argument: &'static str) -> Rule {
+    Rule {
+        commands: &["rupture"],
+        argument,
+        unused: |given| !given.is("problem", &["tpv6"]),
+        is_for: "a normal stress between two materials: --problem tpv6",
     }
 }
 

@@ -77,6 +77,15 @@ impl<const C: usize> ContactState<C> {
         let of = |field: &[f64]| field.get(k).copied().unwrap_or_default();
         self.normal_stress[k] + of(&self.pore_pressure) - of(&self.excess_pressure)
     }
+
+    /// The normal stresses that the sides exert on each other, without the delay in friction \[Pa\].
+    pub(crate) fn exerted_stress(&self) -> &[f64] {
+        if self.body_stress.is_empty() {
+            &self.normal_stress
+        } else {
+            &self.body_stress
+        }
+    }
 }
 
 /// The memory of a run with adaptive steps.

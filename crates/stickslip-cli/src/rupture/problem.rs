@@ -1,23 +1,21 @@
 //! The faults: TPV101, TPV103 with strong rate weakening, and TPV105 with thermal pressurization, in terms of half the
 //! slip.
 
-use clap::ValueEnum;
 use stickslip::fem::Trace;
 use stickslip::fields::{PoreFluid, ShearZone, ThermalError, ThermalPressurization};
-use stickslip::friction::{RegularizedDieterichRuina, StrongRateWeakening};
+use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina, StrongRateWeakening};
 use stickslip::nalgebra::Vector2;
 use stickslip::state::{LogTheta, Psi};
 use stickslip::{Contact, Operator, Scene};
 
 /// The law of the fault, with its benchmark.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Law {
-    /// Rate and state with the aging law: TPV101
+    /// Rate and state with the aging law: TPV101.
     Aging,
-    /// Strong rate weakening by flash heating: TPV103, for cells of 40 m or less
+    /// Strong rate weakening by flash heating: TPV103.
     StrongWeakening,
-    /// The same with thermal pressurization: TPV105
-    #[value(skip)]
+    /// The same with thermal pressurization: TPV105.
     Pressurized,
 }
 
@@ -59,6 +57,22 @@ impl Law {
         } else {
             0.0
         }
+    }
+
+    /// The length at the front over which friction weakens, in an infinite fault at rest whose sides resist slip by
+    /// `G^ = G/(1 - nu)` \[Pa\], with its name \[m\]: `L_b = G^ L/(b sigma_n)`, and under strong rate weakening
+    /// `G^ L/((f_p - f_w) sigma_n)`, with `f_p` the friction of the initial state at 1 m/s, without thermal pressurization.
+    pub fn weakening_length(self, stiffness: f64) -> (&'static str, f64) {
+        // Slip distances are half of those across the fault.
+        if self == Self::Aging {
+            let law = aging_of(1.0);
+            let length = 2.0 * stiffness * law.slip_distance / (law.b * self.normal());
+            return ("length L_b", length);
+        }
+        let law = flash(0.0);
+        let drop = law.coefficient(0.5, start(self, &law)) - law.weakened_friction;
+        let length = 2.0 * stiffness * law.slip_distance / (drop * self.normal());
+        ("length of flash weakening", length)
     }
 
     /// A scene with the fault.
@@ -192,7 +206,6 @@ pub fn start(law: Law, friction: &StrongRateWeakening) -> Psi {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stickslip::friction::FrictionLaw;
 
     /// Checks the published states and their friction.
     #[test]

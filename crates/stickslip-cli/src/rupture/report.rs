@@ -3,7 +3,8 @@
 use serde_json::{Map as Object, json};
 use stickslip::fem::P1;
 
-use super::{Arguments, Law};
+use super::take::Row;
+use super::{Arguments, Benchmark};
 use crate::cli::{Problem, expect};
 use crate::output::number;
 use crate::plot::{self, COLORS, Panel};
@@ -18,37 +19,65 @@ const REFERENCE: [[f64; 4]; 3] = [
     [6e3, 2.979, 5.352, 11.519],
 ];
 
+/// The columns of stations: name and place in a row.
+const COLUMNS: [(&str, usize); 9] = [
+    ("time", 0),
+    ("slip", 1),
+    ("slip_rate", 2),
+    ("shear_stress", 3),
+    ("pore_pressure", 4),
+    ("temperature", 5),
+    ("normal_stress", 6),
+    ("body_normal_stress", 7),
+    ("opening", 8),
+];
+
+/// The response of the normal stress to slip, in words, for a largest slip rate [m/s] and a step \[s\].
+fn response(arguments: &Arguments, rate: f64, step: f64) -> String {
+    if !arguments.problem.has_two_sides() {
+        return "slip does not change the normal stress".into();
+    }
+    let (distance, velocity) = (arguments.relaxation_distance, arguments.relaxation_velocity);
+    format!(
+        "the normal stress is that of the deformation, friction follows it at the rate (V + V*)/L* with L* = {distance} m and \
+         V* = {velocity} m/s, a delay of {:.2e} s at rest and {:.2e} s at {rate:.3} m/s in steps of {step:.2e} s; sides in \
+         tension part",
+        distance / velocity,
+        distance / (rate + velocity)
+    )
+}
+
 /// Writes and prints the results, those of the aging law beside those of the spectral code.
 ///
 /// # Errors
 /// Files that cannot be written, and results that differ from the spectral code's where they should agree.
-pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 6>) -> Result<(), Problem> {
+pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 9>) -> Result<(), Problem> {
     const FILES: [&str; 3] = ["stations.csv", "rupture.png", "summary.json"];
     let output = arguments.files.create("rupture", &FILES)?;
     let stations = probes.each.iter().map(|station| {
         let x = space.mesh().vertices()[station.vertex][0];
         (x, station)
     });
-    let heats = arguments.thermal_pressurization;
-    let (names, count) = if heats {
-        (
-            "x,time,slip,slip_rate,shear_stress,pore_pressure,temperature",
-            7,
-        )
+    let problem = arguments.problem;
+    let (heats, presses) = (problem == Benchmark::Tpv105, problem.has_two_sides());
+    let others = if heats {
+        &COLUMNS[4..6]
+    } else if presses {
+        &COLUMNS[6..]
     } else {
-        ("x,time,slip,slip_rate,shear_stress", 5)
+        &[]
     };
+    let columns: Vec<_> = COLUMNS[..4].iter().chain(others).collect();
+    let names: Vec<_> = columns.iter().map(|column| column.0).collect();
     let rows = stations.clone().flat_map(|(x, station)| {
-        let rows = station.rows.iter().skip(1);
-        rows.map(move |row| {
-            [x].iter()
-                .chain(row)
-                .take(count)
-                .map(|own| number(*own))
-                .collect::<Vec<_>>()
-        })
+        let columns = &columns;
+        let row = move |row: &Row| {
+            let own = columns.iter().map(|column| number(row[column.1]));
+            [number(x)].into_iter().chain(own).collect::<Vec<_>>()
+        };
+        station.rows.iter().map(row)
     });
-    output.table(FILES[0], names, rows)?;
+    output.table(FILES[0], &format!("x,{}", names.join(",")), rows)?;
     let names: Vec<String> = (stations.clone())
         .map(|(x, _)| format!("x = {} km", x / 1e3))
         .collect();
@@ -68,28 +97,43 @@ pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 6>) -> Re
         panels.push(panel("pore pressure [MPa]", 4, 1e-6));
         panels.push(panel("temperature [K]", 5, 1.0));
     }
+    if presses {
+        panels.push(panel("normal stress of friction [MPa]", 6, 1e-6));
+    }
     plot::draw(&output.path(FILES[1]), &panels[..])?;
     let (mut summary, mut verdict) = (Vec::new(), Ok(()));
     let mut lines = vec![format!(
-        "{:>6} {:>10} {:>10} {:>10} {:>12}",
-        "x km", "arrival s", "slip 5 s", "slip 10 s", "stress MPa"
+        "{:>6} {:>10} {:>10} {:>10} {:>10} {:>12}",
+        "x km", "arrival s", "slip 5 s", "slip 10 s", "peak m/s", "stress MPa"
     )];
+    if presses {
+        lines[0] += "   normal stress MPa";
+    }
     for (x, station) in stations {
         let arrival = station.times(ARRIVED, |row| row[2]).first().copied();
-        let peak = station.rows.iter().map(|row| row[3]).fold(0.0, f64::max);
+        let largest = |column: usize| {
+            let rows = station.rows.iter().map(|row| row[column]);
+            rows.fold(0.0, f64::max)
+        };
+        let (peak, peak_rate) = (largest(3), largest(2));
         let at = |time: f64| {
             let found = station.rows.iter().find(|row| row[0] == time);
             found.map_or(f64::NAN, |row| row[1])
         };
         lines.push(format!(
-            "{:>6.1} {:>10.3} {:>10.3} {:>10.3} {:>12.2}",
+            "{:>6.1} {:>10.3} {:>10.3} {:>10.3} {peak_rate:>10.3} {:>12.2}",
             x / 1e3,
             arrival.unwrap_or(f64::NAN),
             at(5.0),
             at(10.0),
             peak / 1e6
         ));
-        let known = REFERENCE.iter().filter(|_| arguments.law == Law::Aging);
+        let least = station.rows.iter().map(|row| row[6]);
+        let least = least.fold(f64::INFINITY, f64::min);
+        if let Some(line) = lines.last_mut().filter(|_| presses) {
+            *line += &format!(" {:>9.2} to {:.2}", least / 1e6, largest(6) / 1e6);
+        }
+        let known = REFERENCE.iter().filter(|_| problem == Benchmark::Tpv101);
         if let Some(known) = known.into_iter().find(|known| known[0] == x) {
             let [_, time, five, ten] = known;
             lines.push(format!(
@@ -107,21 +151,30 @@ pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 6>) -> Re
         let slips: Object<String, serde_json::Value> = (arguments.stops())
             .map(|time| (time.to_string(), json!(at(time))))
             .collect();
-        let mut own = json!({ "x": x, "arrival": arrival, "slip": slips, "peak_stress": peak });
+        let mut own = json!({
+            "x": x, "arrival": arrival, "slip": slips, "peak_rate": peak_rate, "peak_stress": peak,
+        });
+        if presses {
+            own["least_normal_stress"] = least.into();
+            own["largest_normal_stress"] = largest(6).into();
+            own["largest_opening"] = largest(8).into();
+        }
         if heats {
-            let largest = |column: usize| {
-                let rows = station.rows.iter().map(|row| row[column]);
-                rows.fold(0.0, f64::max)
-            };
             own["peak_pore_pressure"] = largest(4).into();
             own["peak_temperature"] = largest(5).into();
         }
         summary.push(own);
     }
     let milliseconds = probes.milliseconds_per_step();
+    let rates = probes.each.iter().flat_map(|station| &station.rows);
+    let fastest = rates.map(|row| row[2]).fold(0.0, f64::max);
+    let step = arguments.until / probes.cost.steps.max(1) as f64;
+    let response = response(arguments, fastest, step);
     output.json(
         FILES[2],
         &json!({
+            "problem": problem.name(),
+            "response": response,
             "vertices": space.vertex_count(),
             "cell": arguments.cell,
             "steps": probes.cost.steps,
@@ -130,6 +183,7 @@ pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 6>) -> Re
         }),
     )?;
     say!("{}", lines.join("\n"))?;
+    say!("{}: {response}", problem.name())?;
     say!(
         "{} vertices, {} steps, {milliseconds:.3} ms a step; {}",
         space.vertex_count(),

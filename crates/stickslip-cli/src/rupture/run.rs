@@ -1,20 +1,22 @@
-//! Dynamic earthquake rupture: a plane (mode II) rupture, TPV101, TPV103 or TPV105 in two dimensions.
+//! Dynamic earthquake rupture: a plane (mode II) rupture, TPV5, TPV6, TPV101, TPV103, TPV105 or TPV205 in two dimensions.
 //!
 //! One body stands for two halves, which move in opposite directions. Slip rate, slip and the laws' velocity and length
-//! are half of those across the fault, and the normal traction stays constant. The rupture is symmetric, too: on the
-//! line through its middle the body moves along the fault alone. The top absorbs the waves.
+//! are half of those across the fault, and the normal traction stays constant. Under friction of rate and state the rupture
+//! is symmetric, too: on the line through its middle the body moves along the fault alone. TPV6 has a body on each side
+//! of the fault. Sides absorb the waves.
 //!
 //! ```text
 //! stickslip rupture --scheme implicit --cell 100
-//! stickslip rupture --law strong-weakening
-//! stickslip rupture --law strong-weakening --thermal-pressurization
+//! stickslip rupture --problem tpv103
+//! stickslip rupture --problem tpv6 --cell 100 --relaxation-distance 0.1
 //! ```
 //!
-//! Parameters: R. Harris et al., Seismol. Res. Lett. 89 (2018), and the 2D setting of the code uguca.
+//! Parameters: R. Harris et al., Seismol. Res. Lett. 80 (2009) and 89 (2018), and the 2D setting of the code uguca.
 
-use super::{Arguments, report, take};
+use super::sides::Sides;
+use super::{Arguments, Law, Rock, report, resolution, take};
 use crate::cli::Problem;
-use stickslip::fem::{Elastic, Impedance, P1, dashpot, elasticity, lumped_mass, mass, traction};
+use stickslip::fem::{P1, dashpot, elasticity, lumped_mass, mass, traction};
 use stickslip::nalgebra::Vector2;
 use stickslip::{
     CentralDifferences, Components, Condensed, Diagonal, GeneralizedAlpha, Scene, Simulation,
@@ -25,18 +27,38 @@ use stickslip::{
 /// # Errors
 /// In one line: a wrong setting, a failed step, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
-    let (law, [length, height]) = (arguments.fault()?, [36e3, arguments.height]);
+    let problem = arguments.problem;
+    resolution::warn(arguments);
+    let (space, mut rupture) = match problem.law() {
+        Some(law) => of_rate_and_state(arguments, law)?,
+        None => {
+            let [above, below] = problem.rocks();
+            let sides = Sides {
+                arguments,
+                patches: problem.patches(),
+                above,
+                below: problem.has_two_sides().then_some(below),
+            };
+            sides.build()?
+        }
+    };
+    let run = take(arguments, &mut rupture)?;
+    report(arguments, &space, &run)
+}
+
+/// The space and the simulation of half of a rupture by a law of rate and state.
+fn of_rate_and_state(arguments: &Arguments, law: Law) -> Result<(P1<2>, Simulation<2>), Problem> {
+    let [length, height] = [36e3, arguments.height];
     let space = P1::grid([length, height], [6, 5])?.graded(|x| arguments.size(x[1]))?;
     let fault = space.trace(|x| x[1] == 0.0)?;
     let top = space.trace(|x| x[1] == height)?;
     let middle = space.trace(|x| x[0] == 0.0)?;
     let image = space.trace(|x| x[0] == length)?;
-    // c_s = 3464 m/s and c_p = 6000 m/s.
-    let (density, elastic) = (2670.0, Elastic::of_waves(2670.0, 6000.0, 3464.0)?);
+    let (density, elastic) = (Rock::HARD.density, Rock::HARD.elastic()?);
     // The normal stress is there from the start and compresses nothing.
     let balance = traction(&space, &fault, |_| Vector2::new(0.0, -law.normal()))?;
     let pull = traction(&space, &fault, |x| Vector2::new(law.nucleation(x[0]), 0.0))?;
-    let impedance = Impedance::of(&elastic, density)?;
+    let impedance = Rock::HARD.impedance()?;
     let explicit = arguments.explicit();
     let inertia = if explicit {
         lumped_mass(&space, density)?
@@ -55,11 +77,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
             space.vertex_count()
         ]);
     let scene = law.on(scene, &fault)?;
-    let mut rupture = if explicit {
+    let rupture = if explicit {
         Simulation::new(scene, CentralDifferences, Diagonal::new())?
     } else {
         Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?
     };
-    let run = take(arguments, &mut rupture)?;
-    report(arguments, &space, &run)
+    Ok((space, rupture))
 }

@@ -1,23 +1,20 @@
 //! The faults, in terms of half the slip.
 
-use std::f64::consts::PI;
-
 use stickslip::fem::{FemError, P1, Trace, traction};
 use stickslip::fields::ThermalError;
-use stickslip::friction::LinearWeakening;
 use stickslip::nalgebra::Vector3;
 use stickslip::state::{LogTheta, SlipWeakening, Weakening};
 use stickslip::{Contact, Operator, Scene};
 
 use super::Benchmark;
 use super::averages::{Patch, averages};
-use crate::rupture::{Law, aging_of, drainage_of, flash_of, heated, initial_of, smooth, start};
+use crate::rupture::{
+    Law, PATCH, PATCHES, SHEAR, SLIP_DISTANCE, aging_of, cohesive_zone, drainage_of, flash_of,
+    friction, heated, initial_of, smooth, start,
+};
 
 /// The density \[kg/m^3\], and the speeds of pressure and shear waves [m/s].
 pub(super) const ROCK: [f64; 3] = [2670.0, 6000.0, 3464.0];
-
-/// The static and dynamic friction of TPV5, and half the slip over which it weakens \[m\].
-const WEAKENING: [f64; 3] = [0.677, 0.525, 0.2];
 
 impl Benchmark {
     /// The fault of the plane with the same friction, if it has a state of rate and state.
@@ -60,28 +57,15 @@ impl Benchmark {
         smooth(x, 15e3) * down
     }
 
-    /// The length at the front over which friction weakens, in an infinite fault at rest \[m\]: `G L/((1 - nu) b sigma_n)`, of
-    /// flash heating with its steepest steady slope 0.18 for `b`, or `9 pi/32 G D_c/(tau_s - tau_d)` of slip weakening (S. Day
-    /// et al., J. Geophys. Res. 110 (2005)).
+    /// The length at the front over which friction weakens, in an infinite fault at rest \[m\].
     pub(super) fn weakening_length(self) -> f64 {
         let [density, c_p, c_s] = ROCK;
         let modulus = density * c_s.powi(2);
-        let ratio = (c_s / c_p).powi(2);
-        let poisson_ratio = (1.0 - 2.0 * ratio) / (2.0 - 2.0 * ratio);
-        let normal = self.normal(f64::INFINITY);
-        let rate_and_state = |distance: f64, slope: f64| {
-            2.0 * modulus * distance / ((1.0 - poisson_ratio) * slope * normal)
-        };
-        match self {
-            Self::Tpv5 => {
-                let [from, to, distance] = WEAKENING;
-                9.0 * PI / 32.0 * modulus * 2.0 * distance / ((from - to) * normal)
-            }
-            Self::Tpv101 | Self::Tpv102 => {
-                let law = aging_of(1.0);
-                rate_and_state(law.slip_distance, law.b)
-            }
-            Self::Tpv104 | Self::Tpv105 => rate_and_state(flash_of(1.0).slip_distance, 0.18),
+        // `1/(1 - nu)` of the wave speeds.
+        let stiffness = 2.0 * modulus * (1.0 - (c_s / c_p).powi(2));
+        match self.law() {
+            None => cohesive_zone(modulus),
+            Some(law) => law.weakening_length(stiffness).1,
         }
     }
 }
@@ -115,18 +99,14 @@ impl Prestress {
                 normal.iter().map(|normal| ratio * normal).collect()
             }
             None => {
-                let square = |middle: f64, stress: f64| Patch {
-                    extent: [[middle - 1.5e3, middle + 1.5e3], [6e3, 9e3]],
-                    value: stress - 70e6,
-                };
-                let squares = [
-                    square(0.0, 81.6e6),
-                    square(-7.5e3, 78e6),
-                    square(7.5e3, 62e6),
-                ];
+                // As high as wide.
+                let squares = PATCHES.map(|(middle, stress)| Patch {
+                    extent: [middle, 7.5e3].map(|x| [x - PATCH, x + PATCH]),
+                    value: stress - SHEAR,
+                });
                 let at = |k: usize| place(&fault.points()[k]);
                 let above = averages(fault, at, &squares);
-                above.iter().map(|above| 70e6 + above).collect()
+                above.iter().map(|above| SHEAR + above).collect()
             }
         };
         Ok(Self {
@@ -153,13 +133,11 @@ impl Benchmark {
         let along = |shear: &f64| Vector3::new(*shear, 0.0, 0.0);
         let stress: Vec<_> = prestress.shear.iter().map(along).collect();
         let Some(law) = self.law() else {
-            let [static_friction, dynamic_friction, slip_distance] = WEAKENING;
-            let law = LinearWeakening {
-                static_friction,
-                dynamic_friction,
+            let weakening = SlipWeakening {
+                slip_distance: 0.5 * SLIP_DISTANCE,
             };
-            let contact = Contact::new(fault, law, normal)
-                .with_state(SlipWeakening { slip_distance }, Weakening(0.0));
+            let contact =
+                Contact::new(fault, friction(true), normal).with_state(weakening, Weakening(0.0));
             return Ok(scene.with_contact(contact.with_free_normal().with_shear_stress(stress)));
         };
         if law == Law::Aging {

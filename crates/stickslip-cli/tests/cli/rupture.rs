@@ -10,7 +10,7 @@ use crate::{Outcome, folder, program};
 #[test]
 fn strong_weakening_spreads() -> Outcome {
     let folder = folder("rupture-strong")?;
-    let line = "--law strong-weakening --cell 500 --growth 0.3 --height 12e3 --until 4";
+    let line = "--problem tpv103 --cell 500 --growth 0.3 --height 12e3 --until 4";
     let output = program("rupture")
         .args(line.split(' '))
         .arg("--out")
@@ -48,7 +48,7 @@ fn strong_weakening_spreads() -> Outcome {
 #[test]
 fn thermal_pressurization_weakens_further() -> Outcome {
     let folder = folder("rupture-heat")?;
-    let line = "--law strong-weakening --thermal-pressurization --cell 500 --growth 0.3 --height 12e3 --until 3";
+    let line = "--problem tpv105 --cell 500 --growth 0.3 --height 12e3 --until 3";
     let output = program("rupture")
         .args(line.split(' '))
         .arg("--out")
@@ -108,5 +108,92 @@ fn a_rupture_in_space_starts_in_time() -> Outcome {
         .flat_map(|line| line.split(',').nth(1));
     let moments: Vec<f64> = moments.flat_map(str::parse).collect();
     assert!(moments.is_sorted() && moments.last() > Some(&1e17));
+    Ok(())
+}
+
+/// The summary of a rupture in the plane, the rows of `stations.csv`, and what it said of its cells.
+fn rupture(name: &str, line: &str) -> Outcome<(Value, Vec<Vec<f64>>, String)> {
+    let folder = folder(name)?;
+    let output = program("rupture")
+        .args(line.split(' '))
+        .arg("--out")
+        .arg(&folder)
+        .output()?;
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{told}");
+    let summary = serde_json::from_str(&fs::read_to_string(folder.join("summary.json"))?)?;
+    let table = fs::read_to_string(folder.join("stations.csv"))?;
+    let rows = table.lines().skip(1);
+    let rows = rows.map(|line| line.split(',').flat_map(str::parse).collect());
+    Ok((summary, rows.collect(), told))
+}
+
+/// Slip weakening in the plane: stations begin with the initial stress, the front is as fast to both sides until it meets the
+/// patches, earlier in that of more stress. No stress exceeds the static strength, and fast slip beyond D_c is at dynamic friction.
+#[test]
+fn patches_of_stress_time_a_front() -> Outcome {
+    let line = "--problem tpv205 --cell 500 --growth 0.3 --height 12e3 --until 5";
+    let (summary, rows, told) = rupture("rupture-tpv205", line)?;
+    assert!(told.contains("cohesive zone of 828 m"), "{told}");
+    let first = |x: f64| rows.iter().find(|row| row[0] == x).map(|row| row[4]);
+    let stresses = [(-7.5e3, 78e6), (-4.5e3, 70e6), (0.0, 81.6e6), (7.5e3, 62e6)];
+    for (x, stress) in stresses {
+        assert_eq!(first(x), Some(stress), "{x}");
+    }
+    let stations = summary["stations"].as_array().ok_or("no stations")?;
+    let arrival = |x: f64| {
+        let station = stations.iter().find(|station| station["x"] == x);
+        station.and_then(|station| station["arrival"].as_f64())
+    };
+    let [left, right] = [arrival(-4.5e3), arrival(4.5e3)].map(|time| time.unwrap_or(f64::NAN));
+    assert!((left / right - 1.0).abs() < 1e-9, "{left}, {right}");
+    let [left, right] = [arrival(-7.5e3), arrival(7.5e3)].map(|time| time.unwrap_or(f64::NAN));
+    assert!(left < right, "{left}, {right}");
+    let mut weakened = 0;
+    for row in rows.iter().filter(|row| row[1] > 0.0) {
+        let [.., slip, rate, stress] = row[..] else {
+            return Err(format!("{row:?}").into());
+        };
+        assert!(stress < 0.677 * 120e6 * (1.0 + 1e-9), "{row:?}");
+        if slip > 0.41 && rate > 0.1 {
+            weakened += 1;
+            assert!((stress / (0.525 * 120e6) - 1.0).abs() < 1e-6, "{row:?}");
+        }
+    }
+    assert!(weakened > 100);
+    Ok(())
+}
+
+/// Between two materials slip lowers the normal stress behind the front on the side to which the softer material slips, and
+/// raises it on the other (J. Weertman, J. Geophys. Res. 85 (1980)). Friction is that of the stress with a delay.
+#[test]
+fn two_materials_change_the_normal_stress() -> Outcome {
+    let line = "--problem tpv6 --cell 500 --growth 0.3 --height 12e3 --until 4";
+    let (summary, rows, _) = rupture("rupture-tpv6", line)?;
+    let response = summary["response"].as_str().ok_or("no response")?;
+    assert!(
+        response.contains("L* = 0.01 m and V* = 1 m/s"),
+        "{response}"
+    );
+    // Columns: position, time, slip, slip rate, shear stress, normal stress, that of the body, opening.
+    let behind = |x: f64| {
+        let weakened = rows.iter().filter(|row| row[0] == x && row[2] > 0.4);
+        let stresses: Vec<f64> = weakened.map(|row| row[6]).collect();
+        stresses.iter().sum::<f64>() / stresses.len() as f64
+    };
+    let [towards, away] = [behind(4.5e3), behind(-4.5e3)];
+    assert!(towards < 119e6 && away > 120e6, "{towards}, {away}");
+    let mut sliding = 0;
+    for row in rows.iter().filter(|row| row[1] > 0.0) {
+        assert!(
+            row[7] == 0.0 && row[4] < 0.677 * row[5] * (1.0 + 1e-9),
+            "{row:?}"
+        );
+        if row[2] > 0.41 && row[3] > 0.1 {
+            sliding += 1;
+            assert!((row[4] / (0.525 * row[5]) - 1.0).abs() < 1e-6, "{row:?}");
+        }
+    }
+    assert!(sliding > 100);
     Ok(())
 }

@@ -153,7 +153,7 @@ const INJECTION: [Wrong; 20] = [
     ("injection --shear-stress 0", "--shear-stress"),
 ];
 
-const OTHERS: [Wrong; 52] = [
+const OTHERS: [Wrong; 54] = [
     ("earthquakes --problem bp9", "--problem"),
     ("earthquakes --cell 333", "--cell 333"),
     ("earthquakes --cell 1e-9", "--cell"),
@@ -205,7 +205,16 @@ const OTHERS: [Wrong; 52] = [
     ("rupture --cell 0", "--cell"),
     ("rupture --growth=-1", "--growth"),
     ("rupture --scheme newmark", "--scheme"),
-    ("rupture --law slip", "--law"),
+    ("rupture --problem tpv7", "--problem"),
+    ("rupture --relaxation-distance 0", "--relaxation-distance"),
+    (
+        "rupture --relaxation-velocity 1",
+        "--relaxation-velocity is not used here",
+    ),
+    (
+        "rupture --problem tpv6 --scheme implicit",
+        "--scheme is not used here",
+    ),
     ("rupture3d --problem tpv6", "--problem"),
     ("rupture3d --cell=-1", "--cell"),
     ("rupture3d --margin 0", "--margin"),
@@ -225,7 +234,6 @@ const OTHERS: [Wrong; 52] = [
     ("slider3d --degrees nan", "--degrees"),
     ("slider3d --until 2", "--until"),
     ("figures 9.9", "FIGURE"),
-    ("rupture --thermal-pressurization", "--law strong-weakening"),
     ("nothing", "nothing"),
 ];
 

@@ -25,6 +25,7 @@ mod pressure;
 mod random_block;
 mod reactions;
 mod reduction;
+mod relaxed_opening;
 mod relaxed_stress;
 mod ring;
 mod segments;

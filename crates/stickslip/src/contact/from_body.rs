@@ -185,16 +185,23 @@ impl<const C: usize> DiscreteContact<C> {
         mut unbalanced: impl FnMut(usize) -> SVector<f64, C>,
         mut stays_closed: impl FnMut(usize, bool) -> bool,
     ) -> f64 {
-        // A stress with a delay keeps its own.
-        let Some(mut body) = self.body.take_if(|body| body.unrelaxed.is_empty()) else {
+        let Some(mut body) = self.body.take() else {
             return 0.0;
         };
+        let delays = !body.unrelaxed.is_empty();
         let mut change = 0.0_f64;
         for (k, &vertex) in self.part.vertices.iter().enumerate() {
             let stress =
                 body.beside[k] + self.reaction(k, &unbalanced(vertex)) - self.pore_pressure(k);
             let open = self.opening_axis(k).is_some() && !stays_closed(vertex, stress < 0.0);
-            body.trial[k] = if open { 0.0 } else { stress };
+            let stress = if open { 0.0 } else { stress };
+            if delays {
+                body.unrelaxed[k] = stress;
+            }
+            // Friction with a delay keeps its own while the sides touch.
+            if open || !delays {
+                body.trial[k] = stress;
+            }
             let force = self.part.weights[k] * body.trial[k].max(0.0);
             change = change.max((force - self.forces[k][0]).abs());
         }

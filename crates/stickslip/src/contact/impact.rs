@@ -147,6 +147,11 @@ impl<const C: usize> ContactSet<C> {
             if contact.opening.is_some() {
                 state.normal_stress.copy_from_slice(&contact.normal_stress);
                 (state.earlier_normal_stress).copy_from_slice(&contact.normal_stress);
+                let body = contact.body.as_ref();
+                if let Some(body) = body.filter(|body| !body.unrelaxed.is_empty()) {
+                    state.relaxed_stress.copy_from_slice(&body.trial);
+                    state.body_stress.copy_from_slice(&body.unrelaxed);
+                }
             }
         }
     }

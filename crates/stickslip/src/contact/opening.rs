@@ -81,7 +81,9 @@ impl<const C: usize> ContactSet<C> {
     /// Adds the reactions of vertices that can open, with the normal stresses in force.
     pub(crate) fn add_reactions(&self, load: &mut [SVector<f64, C>]) {
         for contact in &self.contacts {
-            contact.add_reactions(&contact.normal_stress, load);
+            let body = contact.body.iter().map(|body| &body.unrelaxed);
+            let delayed = body.into_iter().find(|stress| !stress.is_empty());
+            contact.add_reactions(delayed.unwrap_or(&contact.normal_stress), load);
         }
     }
 }

@@ -196,7 +196,7 @@ impl<const C: usize> ContactSet<C> {
     ) {
         for (contact, state) in self.contacts.iter().zip(states) {
             contact.add_tractions(|k| state.total_normal_stress(k), true, load);
-            contact.add_reactions(&state.normal_stress, load);
+            contact.add_reactions(state.exerted_stress(), load);
         }
     }
 }

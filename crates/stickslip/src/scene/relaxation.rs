@@ -20,8 +20,10 @@ impl NormalStress {
     /// [`ContactView::body_normal_stress`](crate::ContactView::body_normal_stress) is the other one. A step integrates it
     /// exactly for constant slip rate and stress, at the means of both ends: it is of second order, as the state.
     ///
-    /// Only a normal stress from the body relaxes, of a contact that keeps its sides together:
-    /// [`SceneError::Value`](crate::SceneError::Value).
+    /// A contact that may [open](crate::Contact::allow_opening) opens and closes by the stress of the body, at once. Where it
+    /// is open both stresses are 0, and friction approaches that of the body from 0 once it has closed.
+    ///
+    /// Only a normal stress from the body relaxes: [`SceneError::Value`](crate::SceneError::Value).
     ///
     /// ```
     /// use stickslip::NormalStress;
@@ -80,8 +82,6 @@ impl Relaxation {
             let legal = scale > 0.0 && scale.is_finite();
             require(what, "positive and finite", 0, scale, legal)?;
             require(what, "of a normal stress from the body", 0, scale, follows)?;
-            let closed = !strength.opens;
-            require(what, "without allow_opening", 0, scale, closed)?;
         }
         Ok(())
     }

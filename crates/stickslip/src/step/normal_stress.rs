@@ -216,7 +216,10 @@ impl<const C: usize> Workspace<C> {
                 if let Some(unrelaxed) = body.unrelaxed.get_mut(k) {
                     *unrelaxed = *stress;
                     let rates = [contact.slip_rate(k, &start.velocity), rate];
-                    *stress = contact.relax_stress(k, step, from, *stress, rates);
+                    let vertex = contact.part.vertices[k];
+                    if !contact.is_open(k, &self.end.velocity[vertex]) {
+                        *stress = contact.relax_stress(k, step, from, *stress, rates);
+                    }
                 }
                 let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
                 let missing =
