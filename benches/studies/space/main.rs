@@ -6,6 +6,7 @@
 //! ```text
 //! cargo run --release --manifest-path benches/studies/Cargo.toml --bin space
 //! RAYON_NUM_THREADS=2 cargo run --release --manifest-path benches/studies/Cargo.toml --bin space
+//! cargo run --release --manifest-path benches/studies/Cargo.toml --bin space -- --single-precision
 //! ```
 
 use std::process::ExitCode;
@@ -31,6 +32,9 @@ struct Arguments {
     /// Steps to take
     #[arg(long, value_name = "COUNT", default_value_t = 20)]
     steps: usize,
+    /// Blocks of cycles in single precision
+    #[arg(long)]
+    single_precision: bool,
     /// The size of a step [s]
     #[arg(long, value_name = "SECONDS", default_value_t = 1.5e-3)]
     step: f64,
@@ -71,7 +75,10 @@ fn row(refinements: usize, arguments: &Arguments) -> Result<(), Problem> {
             [cos, sin, 0.0].map(|part| part * load_velocity(time))
         })
         .in_equilibrium(MultigridSolver::new(space.transfers()));
-    let solver = Tnnmg::new(space.transfers());
+    let mut solver = Tnnmg::new(space.transfers());
+    if arguments.single_precision {
+        solver = solver.in_single_precision();
+    }
     let mut block = Simulation::new(scene, Newmark::default(), solver)?;
     let setup = begun.elapsed().as_secs_f64();
     let mut cycles = 0;

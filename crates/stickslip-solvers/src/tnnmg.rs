@@ -102,6 +102,9 @@ impl<const C: usize> Tnnmg<C> {
     /// stiffnesses that differ by orders of magnitude. The error estimate counts that difference. Where a linear step
     /// would reduce an error by more than it allows, an iteration more is taken.
     ///
+    /// In a body of 1.2e6 unknowns in space a velocity problem was measured to take 0.8 of the time, with as many cycles, on
+    /// a machine that was busy with other work. Preparation takes longer, by a third to a half.
+    ///
     /// Levels with a line smoother, and a factor that replaces slow cycles, stay in double precision.
     #[must_use]
     pub fn in_single_precision(mut self) -> Self {
