@@ -1,7 +1,7 @@
 //! The step limit of an explicit scheme.
 
 use nalgebra::{DMatrix, SVector};
-use stickslip_solvers::{ConjugateGradients, LinearSolver, Matrix, SolveError};
+use stickslip_solvers::{ConjugateGradients, LinearSolver, Matrix, Ranks, SolveError};
 
 use crate::body::Matrices;
 use crate::numerics::NUMERICS;
@@ -71,15 +71,17 @@ fn largest_eigenvalue<const C: usize>(
     let solve = |image: &[_], next: &mut [_]| inverse.solve(mass, image, next).map(|_| ());
     let multiply = |field: &[_], product: &mut [_]| mass.multiply_add(1.0, field, product);
     let change = NUMERICS.eigenvalue_change;
-    let highest = highest_eigenvalue(add_product, start, solve, multiply, change)?;
+    let ranks = mass.ranks();
+    let highest = highest_eigenvalue(add_product, (start, &ranks), solve, multiply, change)?;
     Ok(highest.max(0.0))
 }
 
 /// The highest eigenvalue of `A x = lambda D x` by the method of Lanczos in the inner product of `D`: `add_product` adds
-/// `A x` to a field, `solve` is the inverse of `D` and `multiply` its product; to a relative `change` of one step.
+/// `A x` to a field, `solve` is the inverse of `D` and `multiply` its product; to a relative `change` of one step. The field
+/// may be spread over processes.
 pub(crate) fn highest_eigenvalue<E, const C: usize>(
     add_product: impl Fn(&[SVector<f64, C>], &mut [SVector<f64, C>]),
-    start: Vec<SVector<f64, C>>,
+    (start, ranks): (Vec<SVector<f64, C>>, &Ranks),
     mut solve: impl FnMut(&[SVector<f64, C>], &mut [SVector<f64, C>]) -> Result<(), E>,
     multiply: impl Fn(&[SVector<f64, C>], &mut [SVector<f64, C>]),
     change: f64,
@@ -89,7 +91,7 @@ pub(crate) fn highest_eigenvalue<E, const C: usize>(
     let (mut image, mut weighted, mut next, mut last) = (zeros(), zeros(), zeros(), zeros());
     let mut q = start;
     let dot = |a: &[SVector<f64, C>], b: &[SVector<f64, C>]| -> f64 {
-        sum(a.iter().zip(b).map(|(a, b)| a.dot(b)))
+        ranks.sum(sum(a.iter().zip(b).map(|(a, b)| a.dot(b))))
     };
     let (mut diagonal, mut beside): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     multiply(&q, &mut weighted);

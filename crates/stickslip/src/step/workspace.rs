@@ -16,7 +16,7 @@ use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
 use crate::placement::Constraints;
 use crate::scene::{Loads, same_mesh};
-use crate::sums::sum;
+use crate::sums::{agreed, sum};
 use crate::{Clock, StepError, StepState};
 
 /// A scene with its discretisation: the complete input of a step beside its initial state.
@@ -119,12 +119,13 @@ impl<const C: usize> Workspace<C> {
         (self.operators).check_stability(&*p.matrices, fixed, dt)?;
         let inertia = p.matrices.has_mass();
         (self.operators).form(inertia, factors, &self.contacts.vertices);
-        self.operators.body.prepare(&Boundary {
+        let prepared = self.operators.body.prepare(&Boundary {
             load: &self.load,
             potentials: &self.contacts,
             vertices: &self.contacts.vertices,
             fixed,
-        })?;
+        });
+        agreed(&p.ranks, prepared.map_err(Into::into))?;
         self.operators.prepared = Some(factors);
         Ok(formula)
     }

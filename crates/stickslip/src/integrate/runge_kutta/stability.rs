@@ -103,7 +103,7 @@ impl<const C: usize> RungeKutta<C> {
             |field: &[_], product: &mut [_]| {
                 self.matrices.stiffness().multiply_add(1.0, field, product);
             },
-            start,
+            (start, &self.matrices.stiffness().ranks()),
             solve,
             multiply,
             NUMERICS.relaxation_change,

@@ -92,7 +92,8 @@ impl<const C: usize> VelocityProblem<'_, C> {
         let velocity = &mut w.end.velocity;
         let problem = boundary(self.p, &w.load, &w.contacts);
         self.passages.behind = true;
-        let report = w.operators.body.minimize(&problem, goal, velocity)?;
+        let solved = w.operators.body.minimize(&problem, goal, velocity);
+        let report = agreed(&self.p.ranks, solved.map_err(Into::into))?;
         w.solver_iterations += report.work();
         Ok(())
     }
