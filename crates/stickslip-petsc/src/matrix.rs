@@ -21,7 +21,7 @@ pub struct DistributedMatrix<const C: usize> {
     /// Owned vertices, then ghosts.
     pub(crate) columns: Arc<Vec<u32>>,
     pub(crate) values: Vec<SMatrix<f64, C, C>>,
-    /// A field with its ghost values; empty without ghosts.
+    /// A field with its ghost values; empty without ghosts, and where no process needs any.
     room: Mutex<Vec<SVector<f64, C>>>,
 }
 
@@ -42,8 +42,14 @@ impl<const C: usize> DistributedMatrix<C> {
         columns: Arc<Vec<u32>>,
         values: Vec<SMatrix<f64, C, C>>,
     ) -> Self {
-        let ghosts = layout.ghosts.len();
-        let size = if ghosts > 0 { layout.owned + ghosts } else { 0 };
+        // A lumped mass and dashpots need no vertex of another process: products with them send nothing.
+        let reaches = columns.iter().any(|&j| j as usize >= layout.owned);
+        let reaches = layout.ranks.any(reaches) && !layout.ghosts.is_empty();
+        let size = if reaches {
+            layout.owned + layout.ghosts.len()
+        } else {
+            0
+        };
         let room = Mutex::new(vec![SVector::zeros(); size]);
         Self {
             layout,
@@ -82,7 +88,8 @@ impl<const C: usize> DistributedMatrix<C> {
         columns.zip(&self.values[range])
     }
 
-    /// Shows a field of owned vertices together with its ghosts. Who has none is nobody's neighbour.
+    /// Shows a field of owned vertices together with its ghosts, if it has any. A process without ghosts is nobody's
+    /// neighbour.
     fn extended<T>(
         &self,
         x: &[SVector<f64, C>],

@@ -3,15 +3,16 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip::fem::{Assembled, FemError, Mesh, P1, Trace};
+use stickslip::fem::{Assembled, ElementStiffness, FemError, Mesh, P1, Trace};
 use stickslip::{BoundaryPart, OppositeSide};
 
 use crate::copies::{Labelled, Place};
+use crate::elements::Numbering;
 use crate::hierarchy::{Interpolation, Level, interpolations};
 use crate::layout::Layout;
 use crate::numbering::global_numbers;
 use crate::partition::partition;
-use crate::{DistributedMatrix, Error, World};
+use crate::{DistributedElements, DistributedMatrix, Error, World};
 
 /// The part of a refined mesh that this process has: the cells at the vertices it owns.
 ///
@@ -188,6 +189,30 @@ impl<const D: usize> DistributedSpace<D> {
             &self.owned,
             &self.numbers,
         ))
+    }
+
+    /// A stiffness by elements from that of [`local`](Self::local), for explicit steps: `element_stiffness(space.local(), ..)`
+    /// and multiples of it.
+    ///
+    /// # Errors
+    /// [`FemError::Mesh`] for one of another mesh.
+    pub fn elements(&self, local: &ElementStiffness<D>) -> Result<DistributedElements<D>, Error> {
+        let (expected, found) = (self.local.mesh().identity(), local.mesh());
+        if expected != found {
+            let what = "matrix";
+            return Err(FemError::Mesh {
+                what,
+                expected,
+                found,
+            }
+            .into());
+        }
+        let numbering = Numbering {
+            owned: self.owned.clone(),
+            numbers: self.numbers.clone(),
+        };
+        let layout = Arc::clone(&self.layout);
+        Ok(DistributedElements::new(layout, numbering, local.clone()))
     }
 
     /// The values of a field on [`local`](Self::local) at the vertices of this process.

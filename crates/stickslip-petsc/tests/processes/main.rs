@@ -1,6 +1,7 @@
 //! The examples in several processes.
 
 mod checkpoints;
+mod explicit;
 mod faults;
 mod slider;
 mod sweep;
