@@ -29,9 +29,9 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["cell", "growth", "margin"])]
     pub mesh: Option<PathBuf>,
     /// The relaxation time of Kelvin-Voigt viscosity, as a share of the time in which a pressure wave crosses the
-    /// longest edge at the fault
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = non_negative)]
-    pub damping: f64,
+    /// longest edge at the fault [default: 0.1, and 0 for tpv5]
+    #[arg(long, value_name = "SHARE", value_parser = non_negative)]
+    pub damping: Option<f64>,
     /// The end of the run [s]
     #[arg(long, value_name = "TIME", default_value_t = 12.0, value_parser = positive)]
     pub until: f64,
@@ -61,13 +61,18 @@ impl Arguments {
         own.chain(self.station.iter().copied()).collect()
     }
 
+    /// The relaxation time of viscosity over the time in which a pressure wave crosses the longest edge at the fault.
+    pub(super) fn damping(&self) -> f64 {
+        self.damping.unwrap_or(self.problem.damping())
+    }
+
     /// What identifies this run in a checkpoint.
     pub(super) fn tags(&self) -> Tags {
         let stations = format!("{:?}", self.station);
         [
             ("problem", self.problem.name().to_owned()),
             ("end", self.until.to_string()),
-            ("damping", self.damping.to_string()),
+            ("damping", self.damping().to_string()),
             ("stations", stations),
         ]
         .map(|(name, value)| (name.to_owned(), value))

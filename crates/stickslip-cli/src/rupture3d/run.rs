@@ -130,7 +130,7 @@ fn scene(
         Vector3::new(problem.nucleation(place(x)), 0.0, 0.0)
     })?;
     let stiffness = element_stiffness(space, &elastic)?;
-    let viscosity = &stiffness * (arguments.damping * edge / c_p);
+    let viscosity = &stiffness * (arguments.damping() * edge / c_p);
     let mut scene = Scene::new(stiffness)
         .with_mass(lumped_mass::<3, 3>(space, density)?)
         .with_viscosity(dashpot(space, &rock.absorbing()?, |_| impedance)?)
@@ -140,7 +140,7 @@ fn scene(
             Vector3::new(problem.initial_rate(), 0.0, 0.0);
             space.vertex_count()
         ]);
-    if arguments.damping > 0.0 {
+    if arguments.damping() > 0.0 {
         scene = scene.with_viscosity(viscosity);
     }
     if rock.is_larger_than(problem) {
