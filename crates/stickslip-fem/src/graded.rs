@@ -65,7 +65,7 @@ impl<const D: usize> Hierarchy<D> {
         grade(self, &size, None, u32::MAX)
     }
 
-    /// As [`Hierarchy::graded`], unless the finest level would have more than so many vertices. That is told from coarser
+    /// As [`Hierarchy::graded`], unless the finest level would have more vertices than a limit, as predicted from coarser
     /// levels: no memory is taken for a mesh that is refused.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::Points;
 
-/// The largest number of contours of an event.
+/// The largest number of contours of a field.
 const MOST: usize = 8;
 
 /// The least of 1, 2 or 5 times a power of ten that is in `end` at most so many times.

@@ -58,7 +58,7 @@ impl<const C: usize> Sets<C> {
         self.begins.len().saturating_sub(1)
     }
 
-    /// Finds the sets of a matrix; false if there are none.
+    /// Finds the lines of a matrix; false if it has none.
     pub(super) fn find_all(&mut self, matrix: Entries<'_, C>) -> bool {
         self.begins.clear();
         let found = self.find(&matrix) && self.reserve(&matrix.rows);
