@@ -6,7 +6,7 @@ use stickslip::fem::Trace;
 
 use super::rock::Rock;
 use crate::cli::Problem;
-use crate::plot::{self, Colors, PatchSheet, Patches, contours, interval};
+use crate::plot::{self, Colors, PatchSheet, Patches, Points, contours, interval};
 
 /// A field of the fault.
 pub(super) struct Field<'a> {
@@ -39,6 +39,21 @@ impl Part {
         }
     }
 
+    /// The rectangle about all faces.
+    fn outline(&self) -> Points {
+        let corners = || self.triangles.iter().flatten();
+        let low = |c: usize| corners().map(|x| x[c]).fold(f64::INFINITY, f64::min);
+        let high = |c: usize| corners().map(|x| x[c]).fold(f64::NEG_INFINITY, f64::max);
+        let ([left, right], [bottom, top]) = ([low(0), high(0)], [low(1), high(1)]);
+        vec![
+            (left, bottom),
+            (right, bottom),
+            (right, top),
+            (left, top),
+            (left, bottom),
+        ]
+    }
+
     /// Draws a field in colours with contours; those of `contoured` if given.
     pub(super) fn draw(
         &self,
@@ -69,6 +84,10 @@ impl Part {
             .copied()
             .filter(|value| value.is_finite())
             .fold(0.0, f64::max);
+        // What did not rupture has no time.
+        let drawn = self.triangles.iter().copied().zip(values);
+        let (triangles, values): (Vec<_>, Vec<f64>) =
+            drawn.filter(|(_, value)| value.is_finite()).unzip();
         let of = contoured.map_or_else(String::new, |other| format!(" of {}", other.name));
         let title = format!(
             "{}, contours{of} at {}",
@@ -84,9 +103,9 @@ impl Part {
             rows: vec![[
                 Some(Patches {
                     title,
-                    triangles: &self.triangles,
+                    triangles: &triangles,
                     values,
-                    behind: Vec::new(),
+                    behind: vec![(1, self.outline())],
                     above: lines.into_iter().map(|line| (2, line)).collect(),
                     texts: Vec::new(),
                     names: Some(["along strike [km]", "depth [km]"]),
