@@ -50,6 +50,29 @@ pub trait Matrix<const C: usize>: Any + Send + Sync {
         }
     }
 
+    /// The number of levels of local steps in which parts of `A` act: 1, as by default, without.
+    fn levels(&self) -> usize {
+        1
+    }
+
+    /// The highest level of the parts of `A` that act at a vertex; 0 by default.
+    fn level_at(&self, _i: usize) -> usize {
+        0
+    }
+
+    /// `y += scale (sum over levels l of weights[l] A_l) x`, 0 for weights that are not given. By default all of `A` is level 0.
+    fn multiply_add_levels(
+        &self,
+        weights: &[f64],
+        scale: f64,
+        x: &[SVector<f64, C>],
+        y: &mut [SVector<f64, C>],
+    ) {
+        if let Some(&weight) = weights.first().filter(|weight| **weight != 0.0) {
+            self.multiply_add(scale * weight, x, y);
+        }
+    }
+
     /// `x . A x`.
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
         let terms = x.iter().enumerate();

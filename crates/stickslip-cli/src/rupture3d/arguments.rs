@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Parser;
+use clap::{Parser, value_parser};
 
 use super::Benchmark;
 use crate::checkpoints::{Checkpoints, Tags};
@@ -32,6 +32,9 @@ pub struct Arguments {
     /// longest edge at the fault [default: 0.1, and 0 for tpv5]
     #[arg(long, value_name = "SHARE", value_parser = non_negative)]
     pub damping: Option<f64>,
+    /// Levels of local steps: cells whose vertices vibrate 2^l times slower than the fastest act every 2^l-th step; 1 for none
+    #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = value_parser!(u8).range(1..=16))]
+    pub levels: u8,
     /// The end of the run [s]
     #[arg(long, value_name = "TIME", default_value_t = 12.0, value_parser = positive)]
     pub until: f64,
@@ -73,6 +76,7 @@ impl Arguments {
             ("problem", self.problem.name().to_owned()),
             ("end", self.until.to_string()),
             ("damping", self.damping().to_string()),
+            ("levels", self.levels.to_string()),
             ("stations", stations),
         ]
         .map(|(name, value)| (name.to_owned(), value))

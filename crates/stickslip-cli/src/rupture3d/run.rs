@@ -129,10 +129,19 @@ fn scene(
     let pull = traction(space, fault, |x| {
         Vector3::new(problem.nucleation(place(x)), 0.0, 0.0)
     })?;
-    let stiffness = element_stiffness(space, &elastic)?;
+    let mass = lumped_mass::<3, 3>(space, density)?;
+    let mut stiffness = element_stiffness(space, &elastic)?;
+    if arguments.levels > 1 {
+        let levels = usize::from(arguments.levels);
+        stiffness = stiffness.with_local_steps(space, &mass, fault.vertices(), levels)?;
+        println!(
+            "cells that act every 1, 2, 4, .. steps: {:?}",
+            stiffness.cells_of_levels()
+        );
+    }
     let viscosity = &stiffness * (arguments.damping() * edge / c_p);
     let mut scene = Scene::new(stiffness)
-        .with_mass(lumped_mass::<3, 3>(space, density)?)
+        .with_mass(mass)
         .with_viscosity(dashpot(space, &rock.absorbing()?, |_| impedance)?)
         .with_load(prestress.balance.clone())
         .with_load_history(move |time, load| grow(time, &pull, load))

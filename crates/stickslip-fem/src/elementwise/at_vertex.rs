@@ -20,7 +20,7 @@ impl<const D: usize> ElementStiffness<D> {
     fn cells_of(&self, vertex: usize) -> impl Iterator<Item = Cell<D>> {
         let groups = &self.elements.groups;
         self.elements.copies.cells(vertex).map(move |(four, cell)| {
-            let group = groups.fours.partition_point(|&first| first <= four) - 1;
+            let group = groups.group_of(four);
             let begin = groups.starts[group];
             let place = |k: usize| begin + usize::from(groups.corners[four][k.min(D)][cell]);
             let positions: [SVector<f64, D>; MAX_CORNERS] = std::array::from_fn(|k| {

@@ -1,5 +1,7 @@
 //! The copies of a vertex in groups, and its cells.
 
+use std::ops::Range;
+
 use super::groups::Groups;
 
 /// Lists of numbers, one list a vertex.
@@ -69,12 +71,18 @@ impl Copies {
         self.groups.starts.len() - 1
     }
 
-    /// The sum over the copies of a vertex, in their order; `rows` are four numbers each.
+    /// The sum over the copies of a vertex among some of all, in their order; `rows` are four numbers each of these.
     #[inline(always)]
-    pub(super) fn sum<const D: usize>(&self, vertex: usize, rows: &[f64]) -> [f64; D] {
+    pub(super) fn sum<const D: usize>(
+        &self,
+        vertex: usize,
+        some: &Range<usize>,
+        rows: &[f64],
+    ) -> [f64; D] {
         let mut sum = [0.0; D];
-        for &place in self.groups.at(vertex) {
-            let row = &rows[4 * place as usize..][..D];
+        let places = self.groups.at(vertex).iter().map(|&place| place as usize);
+        for place in places.filter(|place| some.contains(place)) {
+            let row = &rows[4 * (place - some.start)..][..D];
             for c in 0..D {
                 sum[c] += row[c];
             }

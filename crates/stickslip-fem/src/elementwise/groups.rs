@@ -1,5 +1,7 @@
 //! Cells in groups that fit into the cache, with the vertices of each group numbered by themselves.
 
+use std::ops::Range;
+
 use nalgebra::SVector;
 
 use super::kernel::Corners;
@@ -22,6 +24,8 @@ pub(super) struct Groups {
     pub(super) fours: Vec<usize>,
     /// The number of cells in the last four of each group.
     pub(super) live: Vec<usize>,
+    /// The level of local steps of each group, not decreasing.
+    pub(super) level: Vec<usize>,
     /// The vertices of the groups, increasing within one.
     pub(super) vertices: Vec<u32>,
     /// Their positions \[m\].
@@ -35,8 +39,8 @@ pub(super) struct Groups {
 }
 
 impl Groups {
-    /// The groups of a mesh: cells of one part of its vertices, by the first of their corners.
-    pub(super) fn of<const D: usize>(mesh: &Mesh<D>) -> Self {
+    /// The groups of a mesh, level by level: cells of one part of its vertices, by the first of their corners.
+    pub(super) fn of<const D: usize>(mesh: &Mesh<D>, level: impl Fn(u32) -> u8) -> Self {
         let order = parts(mesh.vertices());
         let rank = ranks(&order);
         let first = |cell: u32| {
@@ -44,14 +48,15 @@ impl Groups {
             corners.map(|&p| rank[p as usize]).min().unwrap_or_default()
         };
         let part = |cell: u32| first(cell) / PART as u32;
-        let mut cells: Vec<(u32, u32)> = (0..mesh.cell_count() as u32)
-            .map(|cell| (part(cell), cell))
+        let mut cells: Vec<((u8, u32), u32)> = (0..mesh.cell_count() as u32)
+            .map(|cell| ((level(cell), part(cell)), cell))
             .collect();
         cells.sort_unstable();
         let mut groups = Self {
             starts: vec![0],
             fours: vec![0],
             live: Vec::new(),
+            level: Vec::new(),
             vertices: Vec::new(),
             positions: Vec::new(),
             corners: Vec::with_capacity(cells.len().div_ceil(4)),
@@ -60,11 +65,13 @@ impl Groups {
         };
         let mut places = vec![u32::MAX; mesh.vertex_count()];
         for part in cells.chunk_by(|a, b| a.0 == b.0) {
+            let level = usize::from(part[0].0.0);
             let mut cells: Vec<u32> = part.iter().map(|&(_, cell)| cell).collect();
             cells.sort_by_cached_key(|&cell| lowest(mesh, cell));
             // So many cells have at most so many vertices.
             for cells in cells.chunks(MOST / (D + 1)) {
                 groups.push(mesh, cells, &mut places);
+                groups.level.push(level);
             }
         }
         groups
@@ -106,6 +113,24 @@ impl Groups {
     /// The number of groups.
     pub(super) fn count(&self) -> usize {
         self.live.len()
+    }
+
+    /// The number of levels of local steps.
+    pub(super) fn levels(&self) -> usize {
+        self.level.last().map_or(1, |last| last + 1)
+    }
+
+    /// The groups from the first to the last level with a weight.
+    pub(super) fn with(&self, weights: &[f64]) -> Range<usize> {
+        let weighs = |level: &usize| weights.get(*level).is_some_and(|weight| *weight != 0.0);
+        let begin = self.level.iter().position(weighs);
+        let end = self.level.iter().rposition(weighs);
+        begin.zip(end).map_or(0..0, |(begin, end)| begin..end + 1)
+    }
+
+    /// The group of four cells.
+    pub(super) fn group_of(&self, four: usize) -> usize {
+        self.fours.partition_point(|&first| first <= four) - 1
     }
 
     /// The vertices of a cell.

@@ -6,6 +6,7 @@ mod groups;
 mod kernel;
 mod lame;
 mod lanes;
+mod local_steps;
 mod product;
 
 use std::ops::Mul;
@@ -16,7 +17,7 @@ use stickslip_core::compiled;
 
 use crate::assembly::by_cell;
 use crate::identity::MeshIdentity;
-use crate::{Elastic, FemError, P1, SplitSurface, Viscous};
+use crate::{Elastic, FemError, Mesh, P1, SplitSurface, Viscous};
 use copies::Copies;
 use groups::Groups;
 use lame::Materials;
@@ -76,6 +77,20 @@ struct Elements {
     splits: Arc<[SplitSurface]>,
 }
 
+impl Elements {
+    /// The cells of a mesh with their levels of local steps.
+    fn of<const D: usize>(mesh: &Mesh<D>, level: impl Fn(u32) -> u8) -> Self {
+        let groups = Groups::of(mesh, level);
+        Self {
+            copies: Copies::of(&groups, mesh.vertex_count()),
+            groups,
+            forces: Mutex::default(),
+            mesh: mesh.identity(),
+            splits: mesh.split_surfaces().into(),
+        }
+    }
+}
+
 /// The stiffness of an elastic body, element by element; the product is that of [`elasticity`](crate::elasticity).
 ///
 /// # Errors
@@ -113,16 +128,10 @@ compiled! {
         if u32::try_from(corners).is_err() {
             return Err(FemError::too_many("corners of cells", corners));
         }
-        let groups = Groups::of(mesh);
+        let elements = Elements::of(mesh, |_| 0);
         Ok(ElementStiffness {
-            lame: Arc::new(Materials::of(&groups, lame)),
-            elements: Arc::new(Elements {
-                copies: Copies::of(&groups, mesh.vertex_count()),
-                groups,
-                forces: Mutex::default(),
-                mesh: mesh.identity(),
-                splits: mesh.split_surfaces().into(),
-            }),
+            lame: Arc::new(Materials::of(&elements.groups, lame)),
+            elements: Arc::new(elements),
             factor: 1.0,
         })
     }
@@ -172,7 +181,7 @@ impl<const D: usize> ElementStiffness<D> {
     pub fn multiply_add(&self, scale: f64, x: &[SVector<f64, D>], y: &mut [SVector<f64, D>]) {
         let vertices = self.vertex_count();
         assert_eq!([x.len(), y.len()], [vertices; 2], "vectors of two fields");
-        add_product(self, scale, x, y);
+        add_product(self, None, scale, x, y);
     }
 
     /// The factor of a multiple of another stiffness, which shares its memory: `self = factor other`.

@@ -19,9 +19,10 @@ thread_local! {
 }
 
 compiled! {
-    /// `y += scale A x`.
+    /// `y += scale A x`; with weights, the sum over levels of local steps of the weight times their part.
     pub(super) fn add_product<D in 2, 3>(
         stiffness: &ElementStiffness<D>,
+        weights: Option<&[f64]>,
         scale: f64,
         x: &[SVector<f64, D>],
         y: &mut [SVector<f64, D>],
@@ -35,12 +36,15 @@ compiled! {
             Err(_) => &mut own,
         };
         let groups = &elements.groups;
+        let some = weights.map_or(0..groups.count(), |weights| groups.with(weights));
+        let places = groups.starts[some.start]..groups.starts[some.end];
         forces.resize(groups.vertices.len(), row([0.0; 4]));
-        for_groups(stiffness, 0..groups.count(), x, forces);
+        let forces = &mut forces[..places.len()];
+        for_groups((stiffness, weights), some, x, forces);
         let (forces, scale): (&[f64], f64) = (cast_slice(forces), scale * stiffness.factor);
         for_vertices(0, y, &|first, y| {
             for (i, y) in (first..).zip(y) {
-                let sum = elements.copies.sum::<D>(i, forces);
+                let sum = elements.copies.sum::<D>(i, &places, forces);
                 for c in 0..D {
                     y[c] += scale * sum[c];
                 }
@@ -51,21 +55,33 @@ compiled! {
 
 /// The forces of some groups at their vertices; `forces` are those of these groups.
 fn for_groups<const D: usize>(
-    stiffness: &ElementStiffness<D>,
+    (stiffness, weights): (&ElementStiffness<D>, Option<&[f64]>),
     some: std::ops::Range<usize>,
     x: &[SVector<f64, D>],
     forces: &mut [Row],
 ) {
     if some.len() <= 1 {
-        some.for_each(|group| forces_of(stiffness, group, x, forces));
+        for group in some {
+            let level = stiffness.elements.groups.level[group];
+            let weight = weights.map_or(1.0, |all| all.get(level).copied().unwrap_or(0.0));
+            if weight == 0.0 {
+                forces.fill(row([0.0; 4]));
+                continue;
+            }
+            forces_of(stiffness, group, x, forces);
+            if weight != 1.0 {
+                let numbers: &mut [f64] = cast_slice_mut(forces);
+                numbers.iter_mut().for_each(|number| *number *= weight);
+            }
+        }
         return;
     }
     let half = some.start + some.len() / 2;
     let starts = &stiffness.elements.groups.starts;
     let (before, behind) = forces.split_at_mut(starts[half] - starts[some.start]);
     join(
-        || for_groups(stiffness, some.start..half, x, before),
-        || for_groups(stiffness, half..some.end, x, behind),
+        || for_groups((stiffness, weights), some.start..half, x, before),
+        || for_groups((stiffness, weights), half..some.end, x, behind),
     );
 }
 

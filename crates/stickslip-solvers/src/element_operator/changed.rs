@@ -66,6 +66,17 @@ impl<const C: usize> Changed<C> {
         }
     }
 
+    /// The highest level of local steps of the cells that an unknown moves.
+    pub(super) fn level_at(&self, stiffness: &ElementStiffness<C>, i: usize) -> usize {
+        match self.columns.get(&i) {
+            None => stiffness.level_at(i),
+            Some(column) => {
+                let levels = column.iter().map(|(j, _)| stiffness.level_at(*j));
+                levels.max().unwrap_or(0)
+            }
+        }
+    }
+
     /// The diagonal block of an unknown in `T^T A T`.
     pub(super) fn diagonal_block(
         &self,

@@ -4,7 +4,6 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_fem::ElementStiffness;
 
 use super::ElementOperator;
-use super::changed::Changed;
 use crate::{Basis, BlockMatrix, MassMatrix, Matrix, MatrixDefect, Operator};
 
 impl<const C: usize> Matrix<C> for ElementOperator<C> {
@@ -47,13 +46,43 @@ impl<const C: usize> Matrix<C> for ElementOperator<C> {
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
         for (factor, stiffness) in &self.elements {
-            match &self.basis {
-                None => stiffness.multiply_add(scale * factor, x, y),
-                Some(changed) => self.add_changed(changed, stiffness, scale * factor, x, y),
-            }
+            self.add_product(scale * factor, x, y, &|scale, x, y| {
+                stiffness.multiply_add(scale, x, y);
+            });
         }
         if let Some(matrix) = &self.matrix {
             matrix.multiply_add(scale, x, y);
+        }
+    }
+
+    fn levels(&self) -> usize {
+        let levels = self.elements.iter().map(|(_, own)| own.levels());
+        levels.max().unwrap_or(1)
+    }
+
+    fn level_at(&self, i: usize) -> usize {
+        let stiffnesses = self.elements.iter().map(|(_, stiffness)| stiffness);
+        let levels = stiffnesses.map(|stiffness| match &self.basis {
+            None => stiffness.level_at(i),
+            Some(changed) => changed.level_at(stiffness, i),
+        });
+        levels.max().unwrap_or(0)
+    }
+
+    fn multiply_add_levels(
+        &self,
+        weights: &[f64],
+        scale: f64,
+        x: &[SVector<f64, C>],
+        y: &mut [SVector<f64, C>],
+    ) {
+        for (factor, stiffness) in &self.elements {
+            self.add_product(scale * factor, x, y, &|scale, x, y| {
+                stiffness.multiply_add_levels(weights, scale, x, y);
+            });
+        }
+        if let Some(matrix) = &self.matrix {
+            matrix.multiply_add_levels(weights, scale, x, y);
         }
     }
 
@@ -86,15 +115,17 @@ impl<const C: usize> Matrix<C> for ElementOperator<C> {
 }
 
 impl<const C: usize> ElementOperator<C> {
-    /// Adds the product with a stiffness in other unknowns: by the fields in those of the mesh.
-    fn add_changed(
+    /// Adds a product with a stiffness, by its product in the unknowns of the mesh: with factor, field and forces.
+    fn add_product(
         &self,
-        changed: &Changed<C>,
-        stiffness: &ElementStiffness<C>,
         scale: f64,
         x: &[SVector<f64, C>],
         y: &mut [SVector<f64, C>],
+        product: &dyn Fn(f64, &[SVector<f64, C>], &mut [SVector<f64, C>]),
     ) {
+        let Some(changed) = &self.basis else {
+            return product(scale, x, y);
+        };
         let mut shared = self.memory.try_lock();
         let mut own = [Vec::new(), Vec::new()];
         let [field, before] = match &mut shared {
@@ -109,7 +140,7 @@ impl<const C: usize> ElementOperator<C> {
         for p in changed.vertices() {
             before.push(std::mem::replace(&mut y[p], SVector::zeros()));
         }
-        stiffness.multiply_add(scale, field, y);
+        product(scale, field, y);
         changed.basis.forces_to_basis(y);
         for (p, before) in changed.vertices().zip(&*before) {
             y[p] += before;

@@ -30,6 +30,7 @@ mod globs;
 mod invariance;
 mod lagged_viscosity;
 mod layer;
+mod local_steps;
 mod monolithic;
 mod options;
 mod orders;

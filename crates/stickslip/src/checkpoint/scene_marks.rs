@@ -27,6 +27,10 @@ impl Fingerprint {
         self.words("the mesh", source.mesh().map(|mesh| mesh.fingerprint));
         let matrices = source.matrices();
         self.operator("the stiffness matrix", matrices.stiffness());
+        let levels = matrices.stiffness().levels();
+        if levels > 1 {
+            self.count("the number of levels of local steps", levels);
+        }
         if let Some(mass) = matrices.mass() {
             self.operator("the mass matrix", mass);
         }

@@ -12,6 +12,7 @@ impl StepError {
             self,
             Self::NotUnique { shorter: false, .. }
                 | Self::StepSize { .. }
+                | Self::AmidCycle { .. }
                 | Self::Tension { .. }
                 | Self::PorePressure { by_slip: false, .. }
         )

@@ -186,6 +186,19 @@ pub enum SceneError {
         /// normal.
         requirement: &'static str,
     },
+    /// A contact lies at cells that do not act in every step.
+    #[error(
+        "vertex {vertex} of contact {contact} has cells of level {level} of local steps: name the vertices of contacts among the \
+         finest ones"
+    )]
+    LocalSteps {
+        /// The contact, counted from 0.
+        contact: usize,
+        /// The vertex.
+        vertex: usize,
+        /// The highest level of its cells.
+        level: usize,
+    },
     /// An operator format has no local axes, or no jumps: [`Operator::change_basis`](crate::Operator::change_basis).
     #[error("the format of the {what} has no local axes and jumps: {}", hint::AXES)]
     NoBasis {

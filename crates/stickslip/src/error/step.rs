@@ -27,6 +27,21 @@ pub enum StepError {
         /// The largest stable step \[s\].
         limit: f64,
     },
+    /// A step has another size than those before in a cycle of local steps.
+    #[error(
+        "a step of {dt:.6e} s after {taken} of a cycle of {cycle} steps of {before:.6e} s: local steps are equal in a cycle; \
+         end at a multiple of {cycle} steps"
+    )]
+    AmidCycle {
+        /// The step size \[s\].
+        dt: f64,
+        /// The size of the steps before \[s\].
+        before: f64,
+        /// The number of steps taken of the cycle.
+        taken: usize,
+        /// The number of steps of a cycle.
+        cycle: usize,
+    },
     /// The velocity problem could not be solved.
     #[error("velocity problem: {0}")]
     Solver(#[from] SolveError),

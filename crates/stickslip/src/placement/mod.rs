@@ -25,7 +25,7 @@ use equilibrium::equilibrium;
 use start::balance_rates;
 
 use nalgebra::SVector;
-use stickslip_solvers::Basis;
+use stickslip_solvers::{Basis, Matrix};
 
 use crate::body::Matrices;
 use crate::contact::ContactSet;
@@ -88,6 +88,7 @@ impl<const C: usize> Placement<C> {
         let given = std::mem::take(&mut scene.contacts);
         let mut contacts = contacts::place(given, &axes, &mut constraints)?;
         constraints.finish();
+        check_local_steps(matrices.stiffness(), &contacts, &scene.initial.acceleration)?;
         let loads = Loads::new(std::mem::take(&mut scene.loads), &basis);
         let time = scene.initial.time;
         if scene.clamping.is_some() && ranks.any(!basis.is_empty()) {
@@ -156,6 +157,37 @@ impl<const C: usize> Placement<C> {
             state,
         })
     }
+}
+
+/// Refuses contacts at cells that do not act in every step, and accelerations of a start whose forces do not act alike.
+fn check_local_steps<const C: usize>(
+    stiffness: &dyn Matrix<C>,
+    contacts: &ContactSet<C>,
+    acceleration: &[SVector<f64, C>],
+) -> Result<(), SceneError> {
+    if stiffness.levels() == 1 {
+        return Ok(());
+    }
+    if !acceleration.is_empty() {
+        let acceleration = "an initial acceleration";
+        return Err(SceneError::unsupported(
+            acceleration,
+            "a body without local steps",
+        ));
+    }
+    for (index, contact) in contacts.contacts.iter().enumerate() {
+        for &vertex in &contact.part.vertices {
+            let level = stiffness.level_at(vertex);
+            if level > 0 {
+                return Err(SceneError::LocalSteps {
+                    contact: index,
+                    vertex,
+                    level,
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The contacts before the first step.

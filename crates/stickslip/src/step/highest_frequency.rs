@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, SVector};
 use stickslip_solvers::{ConjugateGradients, LinearSolver, Matrix, Ranks, SolveError};
 
+use super::local_steps::{interval, weights_from};
 use crate::body::Matrices;
 use crate::numerics::NUMERICS;
 use crate::sums::{all_directions, sum};
@@ -17,18 +18,38 @@ use crate::sums::{all_directions, sum};
 ///
 /// whose roots are in the unit circle as long as `4 m - 2 tau c - tau^2 k > 0`. Viscosities in the matrix of the step add
 /// `tau d (z^2 - 1)/2`, and change nothing at `z = -1`.
+///
+/// With levels of local steps it is the least over the levels: `2^l` steps are a step of the cells of level `l` and above.
 pub(crate) fn step_limit<const C: usize>(
     matrices: &dyn Matrices<C>,
     mass: &dyn Matrix<C>,
     fixed: &[[bool; C]],
     bound: f64,
 ) -> Result<f64, SolveError> {
+    let mut least = f64::INFINITY;
+    for level in 0..matrices.stiffness().levels() {
+        let limit = limit_from(level, matrices, mass, fixed, bound)?;
+        least = least.min(limit / interval(level) as f64);
+    }
+    Ok(least)
+}
+
+/// The largest stable step of the cells of a level and above by themselves \[s\].
+fn limit_from<const C: usize>(
+    level: usize,
+    matrices: &dyn Matrices<C>,
+    mass: &dyn Matrix<C>,
+    fixed: &[[bool; C]],
+    bound: f64,
+) -> Result<f64, SolveError> {
+    let weights = weights_from(level);
     let eigenvalue = |slowness: f64| {
         largest_eigenvalue(mass, fixed, |x, image| {
-            matrices.stiffness().multiply_add(1.0, x, image);
+            (matrices.stiffness()).multiply_add_levels(&weights, 1.0, x, image);
             if slowness > 0.0 {
-                let lagged = matrices.lagged_viscosities();
-                lagged.for_each(|viscosity| viscosity.multiply_add(slowness, x, image));
+                matrices.lagged_viscosities().for_each(|viscosity| {
+                    viscosity.multiply_add_levels(&weights, slowness, x, image);
+                });
             }
         })
     };

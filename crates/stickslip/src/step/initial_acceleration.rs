@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use stickslip_friction::modulus;
 use stickslip_solvers::{ConjugateGradients, LinearSolver, Matrix};
 
+use super::local_steps::weights_after;
 use super::{Problem, Workspace, check_finite};
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
@@ -211,9 +212,11 @@ impl<const C: usize> Workspace<C> {
         let loaded = check_finite("load", &room.force);
         agreed(&p.ranks, loaded)?;
         contacts.add_tractions(&mut room.force);
-        (p.matrices.stiffness()).multiply_add(-1.0, &state.displacement, &mut room.force);
+        let weights = weights_after(state.clock.step());
+        let (u, v) = (&state.displacement, &state.velocity);
+        (p.matrices.stiffness()).multiply_add_levels(&weights, -1.0, u, &mut room.force);
         if let Some(viscosity) = p.matrices.viscosity() {
-            viscosity.multiply_add(-1.0, &state.velocity, &mut room.force);
+            viscosity.multiply_add_levels(&weights, -1.0, v, &mut room.force);
         }
         agreed(&p.ranks, check_finite("force", &room.force))?;
         for (k, closed) in room.closed.iter_mut().enumerate() {

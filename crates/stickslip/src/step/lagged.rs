@@ -1,5 +1,6 @@
 //! The elastic force, and that of viscosities that couple vertices in explicit steps.
 
+use super::local_steps::weights_after;
 use super::{Problem, Workspace};
 use crate::StepState;
 
@@ -19,7 +20,9 @@ impl<const C: usize> Workspace<C> {
             }
             None => displacement,
         };
-        (p.matrices.stiffness()).multiply_add(-1.0, seen, &mut self.load);
+        let weights = weights_after(start.clock.step() + 1);
+        let stiffness = p.matrices.stiffness();
+        stiffness.multiply_add_levels(&weights, -1.0, seen, &mut self.load);
     }
 
     /// Subtracts the force of the lagged viscosities from the load, at the mean velocity of a step of `dt` \[s\]: in an
@@ -32,8 +35,9 @@ impl<const C: usize> Workspace<C> {
         for (mean, (new, old)) in self.mean_velocity.iter_mut().zip(ends) {
             *mean = (new - old) / dt;
         }
+        let weights = weights_after(start.clock.step() + 1);
         for viscosity in p.matrices.lagged_viscosities() {
-            viscosity.multiply_add(-1.0, &self.mean_velocity, &mut self.load);
+            viscosity.multiply_add_levels(&weights, -1.0, &self.mean_velocity, &mut self.load);
         }
     }
 

@@ -7,6 +7,7 @@ mod highest_frequency;
 mod impact;
 mod initial_acceleration;
 mod lagged;
+mod local_steps;
 mod method;
 mod normal_stress;
 mod operators;
@@ -68,6 +69,7 @@ fn attempt<const C: usize>(
     dt: f64,
 ) -> Result<StepReport, StepError> {
     let span = Span::new(&from.clock, dt, &p.stops)?;
+    local_steps::check_cycle(p.matrices.stiffness(), from, dt)?;
     let mut start = w.start.take();
     let scheme = &*p.method.scheme;
     let taken = match take(p, w, from, &mut start, &span, scheme, None) {

@@ -1,0 +1,177 @@
+//! Cells in levels of local steps: those of level `l` act every `2^l`-th step.
+
+use std::sync::Arc;
+
+use nalgebra::SVector;
+
+use super::product::add_product;
+use super::{ElementStiffness, Elements, Materials};
+use crate::{Assembled, FemError, P1};
+
+/// The slack of ratios of frequencies, which are equal up to rounding in regular parts of a mesh.
+const ROUNDING: f64 = 1e-9;
+
+impl<const D: usize> ElementStiffness<D> {
+    /// The same stiffness with cells in at most so many levels of local steps: in explicit steps of `dt` those of level `l` act
+    /// every `2^l`-th step alone, with `2^l` times their force.
+    ///
+    /// ```text
+    /// M a = sum over l of w_l A_l u,    w_l = 2^l if 2^l divides the number of the step, else 0
+    /// ```
+    ///
+    /// A vertex has the frequency `omega_i^2 = max diag(A_ii)/m_i` by itself. It is of level `l` if its frequency is `2^l` times
+    /// lower than the highest one, of level 0 if it is among the `finest`, and a cell is of the lowest level of its corners.
+    /// Every vertex that a cell of level `l` accelerates hence vibrates `2^l` times slower than the fastest one. The scheme is the
+    /// reversible multiple-time-step scheme r-RESPA (M. Tuckerman, B. Berne, G. Martyna, J. Chem. Phys. 97 (1992)), an
+    /// asynchronous variational integrator (A. Lew, J. Marsden, M. Ortiz, M. West, Arch. Ration. Mech. Anal. 167 (2003)) with
+    /// nested steps: of second order, symmetric in time, and it conserves momentum.
+    ///
+    /// Vertices with friction must be among the `finest`; a scene refuses others. Multiples and
+    /// [viscosities](Self::viscosity_by_cell) are made of the result, to have its levels. One level is the stiffness as it was.
+    ///
+    /// ```
+    /// use stickslip_fem::{Elastic, P1, element_stiffness, lumped_mass};
+    ///
+    /// let rock = Elastic { young_modulus: 2.5, poisson_ratio: 0.25 };
+    /// let space = P1::<2>::grid([16.0, 4.0], [16, 4])?.graded(|x| 0.125 + 0.25 * x.norm())?;
+    /// let mass = lumped_mass(&space, 1.0)?;
+    /// let base = space.trace(|x| x[1] == 0.0 && x[0] < 1.0)?;
+    /// let stiffness = element_stiffness(&space, &rock)?.with_local_steps(&space, &mass, base.vertices(), 4)?;
+    /// assert_eq!(stiffness.levels(), 4);
+    /// assert_eq!(stiffness.cells_of_levels().iter().sum::<usize>(), space.mesh().cell_count());
+    /// assert!(base.vertices().iter().all(|&vertex| stiffness.level_at(vertex) == 0));
+    /// # Ok::<(), stickslip_fem::FemError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::Mesh`] for a space or a mass of another mesh, [`FemError::OutOfRange`] for a vertex that the mesh has not, and
+    /// [`FemError::Value`] for no level or more than 16.
+    #[doc(alias("multirate", "subcycling", "LTS"))]
+    pub fn with_local_steps(
+        &self,
+        space: &P1<D>,
+        mass: &Assembled<D>,
+        finest: &[usize],
+        levels: usize,
+    ) -> Result<Self, FemError> {
+        let (mesh, vertices) = (space.mesh(), self.vertex_count());
+        for (what, found) in [("space", mesh.identity()), ("mass", mass.mesh())] {
+            if found != self.mesh() {
+                let expected = self.mesh();
+                return Err(FemError::Mesh {
+                    what,
+                    expected,
+                    found,
+                });
+            }
+        }
+        if !(1..=16).contains(&levels) {
+            return Err(FemError::Value {
+                what: "number of levels of local steps",
+                requirement: "from 1 to 16",
+                value: levels as f64,
+                cell: None,
+            });
+        }
+        let mut of_vertices = self.levels_of_vertices(mass, levels);
+        for &vertex in finest {
+            let Some(level) = of_vertices.get_mut(vertex) else {
+                return Err(FemError::OutOfRange {
+                    what: "vertex",
+                    index: vertex,
+                    count: vertices,
+                    by: "the finest level of local steps".into(),
+                });
+            };
+            *level = 0;
+        }
+        let level = |cell: u32| {
+            let corners = mesh.cell(cell as usize).iter();
+            corners
+                .map(|&p| of_vertices[p as usize])
+                .min()
+                .unwrap_or_default()
+        };
+        let elements = Elements::of(mesh, level);
+        Ok(Self {
+            lame: Arc::new(self.reordered(&elements)),
+            elements: Arc::new(elements),
+            factor: self.factor,
+        })
+    }
+
+    /// The levels of vertices by their frequencies.
+    fn levels_of_vertices(&self, mass: &Assembled<D>, levels: usize) -> Vec<u8> {
+        let squares = mass.outer_iterator().enumerate().map(|(i, row)| {
+            let mass: f64 = row.iter().map(|(_, block)| block[(0, 0)]).sum();
+            self.diagonal_block(i).diagonal().max() / mass
+        });
+        let squares: Vec<f64> = squares.collect();
+        let highest = squares.iter().copied().fold(0.0, f64::max);
+        let level = |square: f64| {
+            let halvings = 0.5 * (highest / square).log2() + ROUNDING;
+            (halvings as usize).min(levels - 1) as u8
+        };
+        squares.into_iter().map(level).collect()
+    }
+
+    /// The materials of the same cells in another order.
+    fn reordered(&self, elements: &Elements) -> Materials {
+        let own = &self.elements.groups;
+        let mut places = vec![(0, 0); self.elements.mesh.cells];
+        for (four, cells) in own.cells.iter().enumerate() {
+            for (place, &cell) in cells.iter().enumerate() {
+                places[cell as usize] = (four, place);
+            }
+        }
+        Materials::of(&elements.groups, &|cell| {
+            let (four, place) = places[cell];
+            self.lame.of_cell(four, place)
+        })
+    }
+
+    /// The number of levels of local steps: 1 without.
+    pub fn levels(&self) -> usize {
+        self.elements.groups.levels()
+    }
+
+    /// The number of cells of each level.
+    pub fn cells_of_levels(&self) -> Vec<usize> {
+        let groups = &self.elements.groups;
+        let mut counts = vec![0; groups.levels()];
+        for group in 0..groups.count() {
+            let fours = groups.fours[group + 1] - groups.fours[group];
+            counts[groups.level[group]] += 4 * (fours - 1) + groups.live[group];
+        }
+        counts
+    }
+
+    /// The highest level of the cells of a vertex.
+    ///
+    /// # Panics
+    /// Unless the vertex is below [`vertex_count`](Self::vertex_count).
+    pub fn level_at(&self, vertex: usize) -> usize {
+        let groups = &self.elements.groups;
+        let cells = self.elements.copies.cells(vertex);
+        let levels = cells.map(|(four, _)| groups.level[groups.group_of(four)]);
+        levels.max().unwrap_or(0)
+    }
+
+    /// `y += scale (sum over levels l of weights[l] A_l) x`, with the weight 0 for those that are not given. Cells without weight
+    /// are not computed, unless they are of a level between others.
+    ///
+    /// # Panics
+    /// For fields of another length.
+    pub fn multiply_add_levels(
+        &self,
+        weights: &[f64],
+        scale: f64,
+        x: &[SVector<f64, D>],
+        y: &mut [SVector<f64, D>],
+    ) {
+        let vertices = self.vertex_count();
+        assert_eq!([x.len(), y.len()], [vertices; 2], "vectors of two fields");
+        add_product(self, Some(weights), scale, x, y);
+    }
+}
