@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_fem::{
     Assembled, BlockMatrix, Elastic, GridDiagonal, Mesh, P1, Viscous, elasticity_by_cell,
-    element_stiffness_by_cell, viscosity_by_cell,
+    element_stiffness_by_cell, lumped_mass, viscosity_by_cell,
 };
 use stickslip_solvers::{
     Basis, ElementOperator, IntoOperator, Link, Links, MassMatrix, Matrix, Operator,
@@ -231,4 +231,75 @@ fn bits_are_those_of_one_thread() -> Result<(), Box<dyn std::error::Error>> {
         assert!(product(threads)? == alone, "{threads}");
     }
     Ok(())
+}
+
+/// The levels of local steps add up to the stiffness, and a vertex of cells of level `l` is `2^l` times slower than the fastest.
+fn has_levels<const D: usize>(
+    space: &P1<D>,
+    random: &[f64],
+    levels: usize,
+) -> Result<(), TestCaseError> {
+    let whole = element_stiffness_by_cell(space, |_, cell| rock(random, cell)).expect("rock");
+    let mass = lumped_mass::<D, D>(space, 2.0).expect("a mass");
+    let count = space.vertex_count();
+    let finest = [count / 2, (random[0] * count as f64) as usize];
+    let own = whole
+        .with_local_steps(space, &mass, &finest, levels)
+        .expect("levels");
+    let squares: Vec<f64> = (0..count)
+        .map(|i| whole.diagonal_block(i).diagonal().max() / mass.data()[i][(0, 0)])
+        .collect();
+    let highest = squares.iter().copied().fold(0.0, f64::max);
+    for (i, square) in squares.iter().enumerate() {
+        let interval = f64::from(1 << own.level_at(i));
+        prop_assert!(interval.powi(2) * square <= highest * (1.0 + 1e-8));
+        prop_assert!(interval == 1.0 || !finest.contains(&i));
+    }
+    prop_assert!(own.levels() <= levels);
+    let cells: usize = own.cells_of_levels().iter().sum();
+    prop_assert_eq!(cells, space.mesh().cell_count());
+    let matrix = elasticity_by_cell(space, |_, cell| rock(random, cell)).expect("rock");
+    let x = field(count, random);
+    let weights: Vec<f64> = random
+        .iter()
+        .take(levels)
+        .map(|x| (4.0 * x).floor())
+        .collect();
+    let by_weights = |weights: &[f64]| {
+        let mut y = vec![SVector::<f64, D>::zeros(); count];
+        own.multiply_add_levels(weights, 1.0, &x, &mut y);
+        y
+    };
+    let found = by_weights(&weights);
+    let mut expected = vec![SVector::<f64, D>::zeros(); count];
+    for (level, weight) in weights.iter().enumerate() {
+        let mut one = vec![0.0; level + 1];
+        one[level] = 1.0;
+        let part = by_weights(&one);
+        expected
+            .iter_mut()
+            .zip(part)
+            .for_each(|(sum, part)| *sum += part * *weight);
+    }
+    let largest = (0..count)
+        .map(|i| row(&matrix, i, &x).1)
+        .fold(0.0, f64::max);
+    for (found, expected) in found.iter().zip(&expected) {
+        prop_assert!((found - expected).amax() <= 4.0 * ROUNDING * largest);
+    }
+    is_same(&own.into_operator(), &matrix, &x)
+}
+
+proptest! {
+    #[test]
+    fn levels_add_up_in_the_plane(random in numbers(), cells in [3_usize..12, 2_usize..12], levels in 1_usize..6) {
+        has_levels(&space(cells, &random), &random, levels)?;
+    }
+
+    #[test]
+    fn levels_add_up_in_space(
+        random in numbers(), cells in [2_usize..5, 2_usize..5, 2_usize..5], levels in 1_usize..6,
+    ) {
+        has_levels(&space(cells, &random), &random, levels)?;
+    }
 }
