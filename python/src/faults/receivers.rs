@@ -69,15 +69,9 @@ impl Receivers {
         py: Python<'py>,
         #[pyo3(from_py_with = named)] slip: PerVertex,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let slips = Slips::checked("slip", slip, self.cells, self.components())?;
-        let call = Call::begin()?;
-        let found = call.detach(py, || {
-            let times = slips.each().map(|slip| self.of_slip(slip));
-            times.collect::<Result<Vec<_>, _>>()
-        });
-        let found = found.map_err(|error| errors::receivers(py, &error))?;
-        let numbers = found.into_iter().flatten().flatten().collect();
-        self.shaped(py, numbers, slips.times, &[3])
+        self.of_slips(py, slip, &[3], |slip| {
+            Ok(self.of_slip(slip)?.into_iter().flatten().collect())
+        })
     }
 
     /// The stress due to slip on the cells [Pa], a matrix of 3 x 3 per point; tension is positive. It is computed anew each
@@ -91,18 +85,11 @@ impl Receivers {
         py: Python<'py>,
         #[pyo3(from_py_with = named)] slip: PerVertex,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let slips = Slips::checked("slip", slip, self.cells, self.components())?;
-        let call = Call::begin()?;
-        let found = call.detach(py, || {
-            let times = slips
-                .each()
-                .map(|slip| each!(&self.own, own => own.stress(&vectors(slip))));
-            times.collect::<Result<Vec<_>, _>>()
-        });
-        let found = found.map_err(|error| errors::receivers(py, &error))?;
-        // Symmetric: columns are rows.
-        let numbers = found.iter().flatten().flatten().copied().collect();
-        self.shaped(py, numbers, slips.times, &[3, 3])
+        self.of_slips(py, slip, &[3, 3], |slip| {
+            let found = each!(&self.own, own => own.stress(&vectors(slip)))?;
+            // Symmetric: columns are rows.
+            Ok(found.iter().flatten().copied().collect())
+        })
     }
 
     /// The displacement due to the same slip of all the fault's plane beyond its cells [m], by points and axes, of a line or
@@ -205,17 +192,21 @@ impl Receivers {
         each!(&self.own, own => own.displacement(&vectors(slip)))
     }
 
-    /// An array by times, points and axes.
-    fn shaped<'py>(
+    /// What points do by each of some slips, in an array by times, points and axes.
+    fn of_slips<'py>(
         &self,
         py: Python<'py>,
-        numbers: Vec<f64>,
-        times: Option<usize>,
+        slip: PerVertex,
         axes: &[usize],
+        of: impl Fn(&[f64]) -> Result<Vec<f64>, ReceiverError> + Send,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let mut shape: Vec<usize> = times.into_iter().chain([self.count()]).collect();
+        let slips = Slips::checked("slip", slip, self.cells, self.components())?;
+        let call = Call::begin()?;
+        let found = call.detach(py, || slips.each().map(of).collect::<Result<Vec<_>, _>>());
+        let found = found.map_err(|error| errors::receivers(py, &error))?;
+        let mut shape: Vec<usize> = slips.times.into_iter().chain([self.count()]).collect();
         shape.extend(axes);
-        numbers.into_pyarray(py).reshape(shape)
+        found.concat().into_pyarray(py).reshape(shape)
     }
 
     /// Refuses a simulation of another fault, by the numbers of its cells and components of slip.
