@@ -13,7 +13,8 @@ use nalgebra::SVector;
 
 use super::Multigrid;
 use super::couplings::Couplings;
-use super::level::{Fields, Level};
+use super::fields::Fields;
+use super::level::Level;
 use super::packed::{Before, Coupling};
 use super::smoother::{Smoother, Sweep, interpolated, parents};
 use super::transfer::Transfer;
