@@ -13,16 +13,18 @@ pub(crate) use rounding::{ROUNDINGS, force_and_terms};
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::block::{decouple, inverse_at};
+use crate::block::decouple;
 use crate::block_matrix::Rows;
 use crate::colouring::Colouring;
 use crate::{BlockMatrix, Energy, Matrix, SolveError};
 
-/// The diagonal blocks of the operator, inverted at vertices without friction.
+/// The inverses of the diagonal blocks of the operator on the free components, one per vertex; `None` computes those that
+/// a sweep needs, with the same bits.
+pub(crate) type Inverses<'a, const C: usize> = Option<&'a [SMatrix<f64, C, C>]>;
+
+/// The diagonal blocks of the operator at frictional vertices, and the order of the rows.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Sweep<const C: usize> {
-    /// Inverse on the free components, for every vertex.
-    inverses: Vec<SMatrix<f64, C, C>>,
     /// Decoupled block, for every frictional vertex.
     blocks: Vec<SMatrix<f64, C, C>>,
     /// Largest diagonal entry, for every frictional vertex.
@@ -41,12 +43,6 @@ impl<const C: usize> Sweep<C> {
     ) -> Result<(), SolveError> {
         energy.check()?;
         let size = energy.operator.rows();
-        self.inverses.clear();
-        self.inverses.reserve(size);
-        for vertex in 0..size {
-            let inverse = inverse_at(energy.operator, energy.fixed, vertex)?;
-            self.inverses.push(inverse);
-        }
         self.blocks.clear();
         self.blocks.extend(energy.vertices.iter().map(|&vertex| {
             decouple(
@@ -82,7 +78,7 @@ impl<const C: usize> Sweep<C> {
         norm: &BlockMatrix<C>,
         v: &[SVector<f64, C>],
     ) -> Result<(), SolveError> {
-        energy.check_sizes(self.inverses.len(), self.blocks.len(), norm, v)?;
+        energy.check_sizes(self.behind.len(), self.blocks.len(), norm, v)?;
         // A law with a threshold returns rest even for a NaN load: test the load first.
         if !energy.load.iter().flatten().all(|load| load.is_finite()) {
             let change = f64::NAN;

@@ -27,7 +27,7 @@ mod whole;
 pub(crate) use linearization::Linearization;
 pub(crate) use whole::LOOK;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::colouring::Colouring;
 use crate::{Basis, BlockMatrix, MeshId, Prolongation, SolveError, Transfers};
@@ -164,9 +164,16 @@ impl<const C: usize> Multigrid<C> {
         finest.couplings.rounding(x)
     }
 
-    /// The inverse of a diagonal block of the finest level on its kept components.
-    pub(crate) fn inverse_block(&self, vertex: usize) -> &nalgebra::SMatrix<f64, C, C> {
-        &self.levels[self.levels.len() - 1].inverses[vertex]
+    /// The step of one vertex of the finest level, on its kept components, that balances a force.
+    pub(crate) fn balanced(&self, vertex: usize, force: &SVector<f64, C>) -> SVector<f64, C> {
+        self.levels[self.levels.len() - 1].inverses[vertex] * force
+    }
+
+    /// The inverses of the diagonal blocks of the finest level on its kept components; at vertices without friction they
+    /// are those of the operator. `None` if the couplings are rounded, since the diagonal blocks take up the errors.
+    pub(crate) fn inverses(&self) -> Option<&[SMatrix<f64, C, C>]> {
+        let finest = &self.levels[self.levels.len() - 1];
+        (!self.single).then_some(&*finest.inverses)
     }
 
     /// Whether a cycle is an exact solve of the finest level.

@@ -2,17 +2,18 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::Sweep;
+use super::{Inverses, Sweep};
+use crate::block::inverse;
 use crate::block_matrix::{Rows, row_product_behind};
 use crate::field::clear_masked;
-use crate::{BlockMatrix, Energy};
+use crate::{BlockMatrix, Energy, Matrix};
 
 impl<const C: usize> Sweep<C> {
     /// The minimiser over vertex `i` alone, with its position among the frictional ones; `v` begins at vertex `first`.
     #[inline(always)]
     pub(super) fn renewed(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, C>,
+        (energy, inverses): (&Energy<'_, BlockMatrix<C>, C>, Inverses<'_, C>),
         rows: &Rows<'_, SMatrix<f64, C, C>>,
         (i, position): (usize, Option<usize>),
         first: usize,
@@ -22,7 +23,11 @@ impl<const C: usize> Sweep<C> {
             Some(position) => self.minimizer(energy, rows, position, first, v),
             None => {
                 let rest = energy.load[i] - row_product_behind(rows, i, first, v);
-                v[i - first] + self.inverses[i] * rest
+                let step = match inverses {
+                    Some(inverses) => inverses[i] * rest,
+                    None => balanced(energy, i, &rest),
+                };
+                v[i - first] + step
             }
         }
     }
@@ -75,4 +80,16 @@ impl<const C: usize> Sweep<C> {
         let change = self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]];
         (self.blocks[position] * change).amax()
     }
+}
+
+/// The step of a vertex without friction that balances a force.
+#[inline]
+fn balanced<const C: usize>(
+    energy: &Energy<'_, BlockMatrix<C>, C>,
+    i: usize,
+    force: &SVector<f64, C>,
+) -> SVector<f64, C> {
+    // Preparation has checked that the block is positive definite.
+    inverse(&energy.operator.diagonal_block(i), &energy.fixed[i])
+        .map_or_else(SVector::zeros, |inverse| inverse * force)
 }

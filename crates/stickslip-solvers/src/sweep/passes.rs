@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 
-use super::Sweep;
+use super::{Inverses, Sweep};
 use crate::block_matrix::Rows;
 use crate::frictional_vertices::FrictionalVertices;
 use crate::{BlockMatrix, Energy};
@@ -21,39 +21,43 @@ impl<const C: usize> Sweep<C> {
     /// before minus those after.
     pub(crate) fn forward(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, C>,
+        (energy, inverses): (&Energy<'_, BlockMatrix<C>, C>, Inverses<'_, C>),
         v: &mut [SVector<f64, C>],
         moved: &mut [SVector<f64, C>],
     ) {
         let slabs = &self.slabs;
         slabs.for_wide((&mut *v, &mut *moved), |k, first, (v, moved)| {
             let part = Part { first, v, moved };
-            self.pass(energy, slabs.wide(k), part, |_, _| ());
+            self.pass((energy, inverses), slabs.wide(k), part, |_, _| ());
         });
         if slabs.is_whole() {
             return;
         }
         slabs.for_narrow((v, moved), |k, first, (v, moved)| {
             let part = Part { first, v, moved };
-            self.pass(energy, slabs.narrow(k), part, |_, _| ());
+            self.pass((energy, inverses), slabs.narrow(k), part, |_, _| ());
         });
     }
 
     /// [`forward`](Self::forward) in the reverse order: from the last vertex to the first.
     pub(crate) fn backward(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, C>,
+        (energy, inverses): (&Energy<'_, BlockMatrix<C>, C>, Inverses<'_, C>),
         v: &mut [SVector<f64, C>],
         moved: &mut [SVector<f64, C>],
     ) {
         let slabs = &self.slabs;
         if !slabs.is_whole() {
             slabs.for_narrow((&mut *v, &mut *moved), |k, first, (v, moved)| {
-                self.pass_back(energy, slabs.narrow(k), Part { first, v, moved });
+                self.pass_back(
+                    (energy, inverses),
+                    slabs.narrow(k),
+                    Part { first, v, moved },
+                );
             });
         }
         slabs.for_wide((v, moved), |k, first, (v, moved)| {
-            self.pass_back(energy, slabs.wide(k), Part { first, v, moved });
+            self.pass_back((energy, inverses), slabs.wide(k), Part { first, v, moved });
         });
     }
 
@@ -61,7 +65,7 @@ impl<const C: usize> Sweep<C> {
     #[inline(always)]
     pub(super) fn pass<'a>(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, C>,
+        (energy, inverses): (&Energy<'_, BlockMatrix<C>, C>, Inverses<'_, C>),
         range: Range<usize>,
         part: Part<'a, C>,
         mut then: impl FnMut(usize, &[SVector<f64, C>]),
@@ -72,7 +76,7 @@ impl<const C: usize> Sweep<C> {
         let mut frictional = FrictionalVertices::along(&energy.vertices[begin..]);
         for i in range {
             let position = frictional.at(i).map(|position| begin + position);
-            let new = self.renewed(energy, &rows, (i, position), first, v);
+            let new = self.renewed((energy, inverses), &rows, (i, position), first, v);
             moved[i - first] = v[i - first] - new;
             v[i - first] = new;
             then(i, moved);
@@ -83,14 +87,14 @@ impl<const C: usize> Sweep<C> {
     /// One pass over some rows from the last to the first.
     fn pass_back(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, C>,
+        (energy, inverses): (&Energy<'_, BlockMatrix<C>, C>, Inverses<'_, C>),
         range: Range<usize>,
         Part { first, v, moved }: Part<'_, C>,
     ) {
         let rows = Rows::of(energy.operator);
         for i in range.rev() {
             let position = energy.vertices.binary_search(&i).ok();
-            let new = self.renewed(energy, &rows, (i, position), first, v);
+            let new = self.renewed((energy, inverses), &rows, (i, position), first, v);
             moved[i - first] = v[i - first] - new;
             v[i - first] = new;
         }

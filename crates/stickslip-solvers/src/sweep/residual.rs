@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 
-use super::Sweep;
 use super::passes::Part;
+use super::{Inverses, Sweep};
 use crate::block_matrix::{Rows, partial_product};
 use crate::field::clear_masked;
 use crate::{BlockMatrix, Energy};
@@ -19,7 +19,7 @@ impl<const C: usize> Sweep<C> {
     /// Contributions of wide slabs to a narrow one are added when its rows are read.
     pub(crate) fn forward_with_residual(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, C>,
+        (energy, inverses): (&Energy<'_, BlockMatrix<C>, C>, Inverses<'_, C>),
         v: &mut [SVector<f64, C>],
         moved: &mut [SVector<f64, C>],
         residual: &mut [SVector<f64, C>],
@@ -28,7 +28,7 @@ impl<const C: usize> Sweep<C> {
         let fields = (&mut *v, &mut *moved, &mut *residual);
         slabs.for_wide(fields, |k, first, (v, moved, residual)| {
             let part = Part { first, v, moved };
-            self.pass_with_residual(energy, slabs.wide(k), part, residual);
+            self.pass_with_residual((energy, inverses), slabs.wide(k), part, residual);
         });
         if slabs.is_whole() {
             return;
@@ -40,7 +40,7 @@ impl<const C: usize> Sweep<C> {
                 v,
                 moved: &mut *moved,
             };
-            self.pass_with_residual(energy, rows.clone(), part, residual);
+            self.pass_with_residual((energy, inverses), rows.clone(), part, residual);
             let matrix = Rows::of(energy.operator);
             for i in rows.clone() {
                 let beside = matrix.row(i).filter(|(j, _)| !rows.contains(j));
@@ -55,7 +55,7 @@ impl<const C: usize> Sweep<C> {
     /// A pass over some rows, and the residual at earlier rows due to later ones among them.
     fn pass_with_residual(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, C>,
+        (energy, inverses): (&Energy<'_, BlockMatrix<C>, C>, Inverses<'_, C>),
         range: Range<usize>,
         part: Part<'_, C>,
         residual: &mut [SVector<f64, C>],
@@ -73,7 +73,7 @@ impl<const C: usize> Sweep<C> {
             *left = partial_product(columns, blocks, first, moved);
             clear_masked(left, &energy.fixed[i]);
         };
-        let moved = self.pass(energy, range.clone(), part, |i, moved| {
+        let moved = self.pass((energy, inverses), range.clone(), part, |i, moved| {
             if let Some(i) = i.checked_sub(lag).filter(|&i| i >= range.start) {
                 balance(i, moved);
             }
