@@ -240,7 +240,7 @@ fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
 #[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
 fn sweep_up<B: Coupling<C>, const C: usize, const IMAGE: bool, const FRAMES: bool>(
     level: &Level<C>,
-    before: Before<'_, B>,
+    before: Before<'_, B, C>,
     post: usize,
     residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],

@@ -1,4 +1,4 @@
-//! One level: its matrix, the inverses of its diagonal blocks, its order of sweeps.
+//! One level: its matrix, the blocks that its cycle reads, the order of its sweeps.
 
 mod pattern;
 mod values;
@@ -22,8 +22,6 @@ pub(crate) struct Level<const C: usize> {
     /// couplings; its entries are those of the operator.
     pub(super) matrix: Option<BlockMatrix<C>>,
     pub(super) couplings: Couplings<C>,
-    /// Inverse diagonal blocks, zero on dropped components.
-    pub(crate) inverses: Vec<SMatrix<f64, C, C>>,
     /// The permanently fixed components.
     pub(super) fixed: Vec<[bool; C]>,
     /// The components that are currently fixed or truncated.
@@ -51,7 +49,7 @@ pub(crate) struct Level<const C: usize> {
 impl<const C: usize> Level<C> {
     /// The number of vertices.
     pub(super) fn size(&self) -> usize {
-        self.inverses.len()
+        self.dropped.len()
     }
 
     /// The matrix of the finest level, whose entries are those of the operator.

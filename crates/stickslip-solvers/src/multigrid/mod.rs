@@ -10,6 +10,7 @@ mod cycle;
 mod entries;
 mod fields;
 mod galerkin;
+mod inverses;
 mod level;
 mod line_smoother;
 mod linearization;
@@ -166,14 +167,15 @@ impl<const C: usize> Multigrid<C> {
 
     /// The step of one vertex of the finest level, on its kept components, that balances a force.
     pub(crate) fn balanced(&self, vertex: usize, force: &SVector<f64, C>) -> SVector<f64, C> {
-        self.levels[self.levels.len() - 1].inverses[vertex] * force
+        self.levels[self.levels.len() - 1]
+            .couplings
+            .balanced(vertex, force)
     }
 
     /// The inverses of the diagonal blocks of the finest level on its kept components; at vertices without friction they
     /// are those of the operator. `None` if the couplings are rounded, since the diagonal blocks take up the errors.
     pub(crate) fn inverses(&self) -> Option<&[SMatrix<f64, C, C>]> {
-        let finest = &self.levels[self.levels.len() - 1];
-        (!self.single).then_some(&*finest.inverses)
+        self.levels[self.levels.len() - 1].couplings.inverses()
     }
 
     /// Whether a cycle is an exact solve of the finest level.

@@ -1,7 +1,5 @@
 //! Construction of a level: its pattern, its fixed components and its strip, without values.
 
-use nalgebra::SMatrix;
-
 use super::{Cut, Level};
 use crate::block_matrix::Rows;
 use crate::multigrid::couplings::Couplings;
@@ -33,7 +31,6 @@ impl<const C: usize> Level<C> {
         strip.dedup();
         let slabs = cut(size, rows.bandwidth());
         Self {
-            inverses: vec![SMatrix::zeros(); size],
             dropped: fixed.clone(),
             fixed,
             hessians: Vec::with_capacity(frictional.len()),

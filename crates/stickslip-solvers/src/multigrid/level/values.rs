@@ -159,17 +159,10 @@ impl<const C: usize> Level<C> {
 
     /// Inverts the diagonal block of a row; false if it is not positive definite.
     fn invert(&mut self, i: usize, block: &SMatrix<f64, C, C>) -> bool {
-        match inverse(block, &self.dropped[i]) {
-            Some(inverse) => {
-                self.inverses[i] = inverse;
-                true
-            }
-            None => {
-                // No smoothing there: what is left is the business of the other levels.
-                self.inverses[i] = SMatrix::zeros();
-                false
-            }
-        }
+        let inverse = inverse(block, &self.dropped[i]);
+        // Without one no smoothing there: what is left is the business of the other levels.
+        (self.couplings).set_inverse(i, &inverse.unwrap_or_else(SMatrix::zeros));
+        inverse.is_some()
     }
 }
 
