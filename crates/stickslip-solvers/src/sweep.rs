@@ -18,8 +18,8 @@ use crate::block_matrix::Rows;
 use crate::colouring::Colouring;
 use crate::{BlockMatrix, Energy, Matrix, SolveError};
 
-/// The inverses of the diagonal blocks of the operator on the free components, one per vertex; `None` computes those that
-/// a sweep needs, with the same bits.
+/// The inverses of the diagonal blocks of the operator on the free components, one per vertex; with `None` a sweep
+/// factorises the blocks that it meets.
 pub(crate) type Inverses<'a, const C: usize> = Option<&'a [SMatrix<f64, C, C>]>;
 
 /// The diagonal blocks of the operator at frictional vertices, and the order of the rows.

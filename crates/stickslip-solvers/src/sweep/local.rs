@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{Inverses, Sweep};
-use crate::block::inverse;
+use crate::block::decouple;
 use crate::block_matrix::{Rows, row_product_behind};
 use crate::field::clear_masked;
 use crate::{BlockMatrix, Energy, Matrix};
@@ -89,7 +89,13 @@ fn balanced<const C: usize>(
     i: usize,
     force: &SVector<f64, C>,
 ) -> SVector<f64, C> {
+    let fixed = &energy.fixed[i];
+    let mut step = *force;
+    clear_masked(&mut step, fixed);
     // Preparation has checked that the block is positive definite.
-    inverse(&energy.operator.diagonal_block(i), &energy.fixed[i])
-        .map_or_else(SVector::zeros, |inverse| inverse * force)
+    match decouple(&energy.operator.diagonal_block(i), fixed).cholesky() {
+        Some(factor) => factor.solve_mut(&mut step),
+        None => step = SVector::zeros(),
+    }
+    step
 }
