@@ -81,7 +81,7 @@ impl<const C: usize> Inverses<C> for LowerTriangles<C> {
 mod tests {
     use nalgebra::{Matrix3, Vector3};
 
-    use super::{Inverses, LowerTriangles};
+    use crate::multigrid::inverses::{Inverses, LowerTriangles};
 
     /// Of small whole numbers, whose products are exact.
     #[test]
