@@ -53,6 +53,23 @@ pub(crate) fn inverse_at<M: Matrix<C> + ?Sized, const C: usize>(
         .ok_or(SolveError::IndefiniteBlock { vertex })
 }
 
+/// Computes the inverses of all diagonal blocks.
+///
+/// # Errors
+/// [`SolveError::IndefiniteBlock`].
+pub(crate) fn invert_all<M: Matrix<C> + ?Sized, const C: usize>(
+    operator: &M,
+    fixed: &[[bool; C]],
+    inverses: &mut Vec<SMatrix<f64, C, C>>,
+) -> Result<(), SolveError> {
+    inverses.clear();
+    inverses.reserve_exact(fixed.len());
+    for vertex in 0..fixed.len() {
+        inverses.push(inverse_at(operator, fixed, vertex)?);
+    }
+    Ok(())
+}
+
 /// Checks that an operator has as many vertices as there are masks, and diagonal blocks that are positive
 /// definite on the free components.
 ///

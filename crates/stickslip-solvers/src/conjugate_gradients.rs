@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::block::inverse_at;
+use crate::block::invert_all;
 use crate::energy::expect;
 use crate::field::{clear_masked, dot};
 use crate::linear_solver::check_lengths;
@@ -38,12 +38,9 @@ impl<Op: Matrix<C> + ?Sized, const C: usize> LinearSolver<Op, C> for ConjugateGr
     fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError> {
         let size = operator.vertex_count();
         expect([(size, fixed.len())])?;
-        self.inverses.clear();
+        invert_all(operator, fixed, &mut self.inverses)?;
         self.diagonal.clear();
-        for vertex in 0..size {
-            self.inverses.push(inverse_at(operator, fixed, vertex)?);
-            (self.diagonal).push(operator.diagonal_block(vertex).diagonal());
-        }
+        (self.diagonal).extend((0..size).map(|vertex| operator.diagonal_block(vertex).diagonal()));
         self.fixed.clear();
         self.fixed.extend_from_slice(fixed);
         for field in [

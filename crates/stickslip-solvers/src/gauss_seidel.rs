@@ -2,10 +2,11 @@
 
 mod acceleration;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use stickslip_core::compiled;
 
+use crate::block::invert_all;
 use crate::parts::inside;
 use crate::progress::Progress;
 use crate::sweep::Sweep;
@@ -47,6 +48,7 @@ const WATCHED: usize = 250;
 #[derive(Debug, Clone, Default)]
 pub struct BlockGaussSeidel<const C: usize> {
     sweep: Sweep<C>,
+    inverses: Vec<SMatrix<f64, C, C>>,
     change: Vec<SVector<f64, C>>,
     change_back: Vec<SVector<f64, C>>,
     acceleration: Acceleration<C>,
@@ -70,7 +72,8 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for BlockGaussSeidel<C> 
             change.resize(size, SVector::zeros());
         }
         self.acceleration.resize(size, energy.vertices.len());
-        self.sweep.prepare(energy)
+        self.sweep.prepare(energy)?;
+        invert_all(energy.operator, energy.fixed, &mut self.inverses)
     }
 
     fn minimize(
@@ -111,9 +114,10 @@ impl<const C: usize> BlockGaussSeidel<C> {
         let (mut iteration, mut slow) = (0, false);
         while iteration < max_iterations {
             iteration += 1;
-            self.sweep.forward(energy, v, &mut self.change);
+            let blocks = (energy, Some(&*self.inverses));
+            self.sweep.forward(blocks, v, &mut self.change);
             if slow {
-                self.sweep.backward(energy, v, &mut self.change_back);
+                self.sweep.backward(blocks, v, &mut self.change_back);
                 for (change, back) in self.change.iter_mut().zip(&self.change_back) {
                     *change += back;
                 }

@@ -6,6 +6,7 @@ use nalgebra::SVector;
 
 use stickslip_core::compiled;
 
+use crate::block::check_blocks;
 use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::Multigrid;
 use crate::newton::{self, Ending, Friction, Models};
@@ -146,6 +147,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         self.counters.preparations += 1;
         self.models.resize(energy.vertices.len());
         self.sweep.prepare(energy)?;
+        check_blocks(energy.operator, energy.fixed)?;
         inside(energy.operator.rows(), || {
             (self.multigrid).prepare(energy.operator, energy.fixed, energy.vertices)
         })?;

@@ -1,7 +1,8 @@
-//! The blocks that a cycle reads, in double or in single precision.
+//! The blocks that a cycle reads, and the inverses of diagonal blocks, in double or in single precision.
 
 use nalgebra::{SMatrix, SVector};
 
+use super::inverses::Inverses;
 use super::packed::Packed;
 use crate::BlockMatrix;
 use crate::block_matrix::{Block, Rows};
@@ -16,13 +17,13 @@ const ROUNDOFF: f64 = 0.5 * f32::EPSILON as f64;
 #[derive(Debug)]
 pub(super) enum Couplings<const C: usize> {
     /// As they are.
-    Double(Packed<SMatrix<f64, C, C>>),
+    Double(Packed<SMatrix<f64, C, C>, C>),
     /// By columns, rounded, relative to a power of two per row: stiffnesses of any unit are in the range.
     ///
     /// Rounding changes the energy of a vertex and its neighbour by a share of that of their *difference*, since the
     /// diagonal block takes up what the blocks of a row lose: a translation remains without force. The relative change
     /// of the energy is then a multiple of 6e-8 that does not grow with the number of vertices.
-    Single(Packed<[[f32; C]; C]>),
+    Single(Packed<[[f32; C]; C], C>),
 }
 
 impl<const C: usize> Couplings<C> {
@@ -39,6 +40,7 @@ impl<const C: usize> Couplings<C> {
         let count = columns.len();
         if single {
             return Self::Single(Packed {
+                inverses: Inverses::zeros(matrix.rows()),
                 units: vec![1.0; starts.len() - 1],
                 blocks: vec![[[0.0; C]; C]; count],
                 starts,
@@ -46,11 +48,36 @@ impl<const C: usize> Couplings<C> {
             });
         }
         Self::Double(Packed {
+            inverses: Inverses::zeros(matrix.rows()),
             units: Vec::new(),
             blocks: vec![SMatrix::zeros(); count],
             starts,
             columns,
         })
+    }
+
+    /// Stores the inverse of the diagonal block of a row, zero on dropped components.
+    pub(super) fn set_inverse(&mut self, i: usize, inverse: &SMatrix<f64, C, C>) {
+        match self {
+            Self::Double(packed) => packed.inverses.set(i, inverse),
+            Self::Single(packed) => packed.inverses.set(i, inverse),
+        }
+    }
+
+    /// The inverse of the diagonal block of a row times a vector.
+    pub(super) fn balanced(&self, i: usize, force: &SVector<f64, C>) -> SVector<f64, C> {
+        match self {
+            Self::Double(packed) => packed.inverses.times(i, force),
+            Self::Single(packed) => packed.inverses.times(i, force),
+        }
+    }
+
+    /// The inverses of the diagonal blocks, unless these have taken up errors.
+    pub(super) fn inverses(&self) -> Option<&[SMatrix<f64, C, C>]> {
+        match self {
+            Self::Double(packed) => Some(&packed.inverses),
+            Self::Single(_) => None,
+        }
     }
 
     fn pattern(&self) -> (&[u32], &[u32]) {

@@ -13,7 +13,8 @@ use nalgebra::SVector;
 
 use super::Multigrid;
 use super::couplings::Couplings;
-use super::level::{Fields, Level};
+use super::fields::Fields;
+use super::level::Level;
 use super::packed::{Before, Coupling};
 use super::smoother::{Smoother, Sweep, interpolated, parents};
 use super::transfer::Transfer;
@@ -239,7 +240,7 @@ fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
 #[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
 fn sweep_up<B: Coupling<C>, const C: usize, const IMAGE: bool, const FRAMES: bool>(
     level: &Level<C>,
-    before: Before<'_, B>,
+    before: Before<'_, B, C>,
     post: usize,
     residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],

@@ -8,11 +8,15 @@ mod coarse;
 mod couplings;
 mod cycle;
 mod entries;
+mod fields;
 mod galerkin;
+mod inverses;
 mod level;
 mod line_smoother;
+mod linearization;
 mod linked_transfers;
 mod packed;
+mod preparation;
 mod slab_cycle;
 mod smoother;
 #[cfg(test)]
@@ -21,16 +25,16 @@ mod tied_cycle;
 mod transfer;
 mod whole;
 
-pub(crate) use level::Linearization;
+pub(crate) use linearization::Linearization;
 pub(crate) use whole::LOOK;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::colouring::Colouring;
-use crate::energy::expect;
 use crate::{Basis, BlockMatrix, MeshId, Prolongation, SolveError, Transfers};
 use coarse::CoarseSolver;
-use level::{Cut, Fields, Level};
+use fields::Fields;
+use level::{Cut, Level};
 use transfer::Transfer;
 use whole::Whole;
 
@@ -134,100 +138,6 @@ impl<const C: usize> Multigrid<C> {
         self.levels.clear();
     }
 
-    /// Computes the Galerkin products of `operator` without friction.
-    pub(crate) fn prepare(
-        &mut self,
-        operator: &BlockMatrix<C>,
-        fixed: &[[bool; C]],
-        frictional: &[usize],
-    ) -> Result<(), SolveError> {
-        if let Some(error) = &self.refused {
-            return Err(error.clone());
-        }
-        let expected = self
-            .transfers
-            .last()
-            .map_or(operator.rows(), Transfer::fine_count);
-        expect([(expected, operator.rows())])?;
-        let reusable = self.frictional == frictional
-            && self
-                .levels
-                .last()
-                .is_some_and(|finest| finest.same_pattern(operator, fixed));
-        if !reusable {
-            self.frictional = frictional.to_vec();
-            let how = (self.cut, self.single);
-            let mut finest = Level::finest(operator, how, fixed, frictional, &self.basis.axes);
-            if self.transfers.is_empty() || self.post == 0 {
-                finest.keep_matrix(operator);
-            }
-            let edges = slab_cycle::edge_count(&finest.slabs) * finest.slabs.wide_count();
-            self.edges = vec![SVector::zeros(); edges];
-            self.levels = vec![finest];
-            for transfer in self.transfers.iter().rev() {
-                let finer = &self.levels[self.levels.len() - 1];
-                let fine = match &finer.matrix {
-                    Some(matrix) => matrix,
-                    None => operator,
-                };
-                let coarser = Level::coarsened(finer, fine, how, transfer);
-                self.levels.push(coarser);
-            }
-            self.levels.reverse();
-            self.fields = self.levels[..self.levels.len() - 1]
-                .iter()
-                .map(Fields::of)
-                .collect();
-            let coarsest = self.levels[0].matrix.as_ref();
-            self.coarse = coarsest.map(CoarseSolver::analyse).transpose()?;
-            self.whole = Whole::default();
-        }
-        self.whole.in_use = false;
-        let finest = self.levels.len() - 1;
-        self.levels[finest].restore(operator);
-        for l in (0..finest).rev() {
-            let (coarser, finer) = self.levels.split_at_mut(l + 1);
-            let (fine, frames) = (finer[0].entries(operator), &finer[0].frames);
-            coarser[l].assemble(fine, frames, &self.transfers[l]);
-        }
-        for level in &mut self.levels[1..] {
-            level.tie(operator);
-        }
-        if let (Some(coarse), Some(matrix)) = (&mut self.coarse, &self.levels[0].matrix) {
-            // faer takes memory of a thread's own the first time. Whether the matrix is definite is asked
-            // when friction has been added.
-            let _ = coarse.factorize(matrix);
-        }
-        Ok(())
-    }
-
-    /// Updates the strips with the slopes of friction and the truncated components.
-    pub(crate) fn refresh(
-        &mut self,
-        operator: &BlockMatrix<C>,
-        linearization: &Linearization<'_, C>,
-    ) -> Result<(), SolveError> {
-        let finest = self.levels.len() - 1;
-        self.levels[finest].linearize(operator, linearization)?;
-        for l in (0..finest).rev() {
-            let (coarser, finer) = self.levels.split_at_mut(l + 1);
-            coarser[l].refresh(&finer[0], operator, &self.transfers[l]);
-        }
-        if self.whole.in_use {
-            self.whole.factorize(&self.levels[finest]);
-        }
-        let (Some(coarse), Some(matrix)) = (&mut self.coarse, &self.levels[0].matrix) else {
-            return Ok(());
-        };
-        let factorized = coarse.factorize(matrix);
-        factorized.map_err(|error| match error {
-            SolveError::RigidBodyMode { vertex } => SolveError::RigidBodyMode {
-                vertex: self.on_finest(vertex),
-            },
-            other => other,
-        })
-    }
-
     /// The vertex of the finest level with a pivot of the coarsest matrix that rounding may have made.
     pub(crate) fn rounded_pivot(&self) -> Option<usize> {
         let vertex = self.coarse.as_ref()?.rounded_pivot()?;
@@ -255,9 +165,17 @@ impl<const C: usize> Multigrid<C> {
         finest.couplings.rounding(x)
     }
 
-    /// The inverse of a diagonal block of the finest level on its kept components.
-    pub(crate) fn inverse_block(&self, vertex: usize) -> &nalgebra::SMatrix<f64, C, C> {
-        &self.levels[self.levels.len() - 1].inverses[vertex]
+    /// The step of one vertex of the finest level, on its kept components, that balances a force.
+    pub(crate) fn balanced(&self, vertex: usize, force: &SVector<f64, C>) -> SVector<f64, C> {
+        self.levels[self.levels.len() - 1]
+            .couplings
+            .balanced(vertex, force)
+    }
+
+    /// The inverses of the diagonal blocks of the finest level on its kept components; at vertices without friction they
+    /// are those of the operator. `None` if the couplings are rounded, since the diagonal blocks take up the errors.
+    pub(crate) fn inverses(&self) -> Option<&[SMatrix<f64, C, C>]> {
+        self.levels[self.levels.len() - 1].couplings.inverses()
     }
 
     /// Whether a cycle is an exact solve of the finest level.

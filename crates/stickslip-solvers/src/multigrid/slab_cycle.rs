@@ -96,7 +96,7 @@ pub(super) fn restrict<B: Coupling<C>, const C: usize, const FRAMES: bool>(
 #[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
 pub(super) fn ascend<B: Coupling<C>, const C: usize, const IMAGE: bool, const FRAMES: bool>(
     level: &Level<C>,
-    before: Before<'_, B>,
+    before: Before<'_, B, C>,
     post: usize,
     residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],
@@ -158,7 +158,7 @@ pub(super) fn ascend<B: Coupling<C>, const C: usize, const IMAGE: bool, const FR
 }
 
 /// A wide slab in one of the backward sweeps, with fields from row `first` on.
-struct Wide<'a, B, const C: usize> {
+struct Wide<'a, B: Coupling<C>, const C: usize> {
     smoother: Smoother<'a, B, C>,
     slabs: &'a Colouring,
     k: usize,

@@ -22,16 +22,16 @@ pub(super) struct Sweep {
 /// fields that they change begin at vertex `first`. They are separate arguments, from which the compiler sees that they
 /// do not overlap.
 #[derive(Clone, Copy)]
-pub(super) struct Smoother<'a, B, const C: usize> {
+pub(super) struct Smoother<'a, B: Coupling<C>, const C: usize> {
     level: &'a Level<C>,
-    pub(super) before: Before<'a, B>,
+    pub(super) before: Before<'a, B, C>,
     residual: &'a [SVector<f64, C>],
 }
 
 impl<'a, B: Coupling<C>, const C: usize> Smoother<'a, B, C> {
     pub(super) fn new(
         level: &'a Level<C>,
-        before: Before<'a, B>,
+        before: Before<'a, B, C>,
         residual: &'a [SVector<f64, C>],
     ) -> Self {
         Self {
@@ -63,7 +63,7 @@ impl<'a, B: Coupling<C>, const C: usize> Smoother<'a, B, C> {
             SVector::zeros()
         };
         let rest = self.residual[i] - behind - self.before.product(i, first, x);
-        x[at] = self.level.inverses[i] * rest;
+        x[at] = self.before.balanced(i, &rest);
         self.before.scatter(i, &x[at], first, sums);
     }
 
@@ -80,7 +80,7 @@ impl<'a, B: Coupling<C>, const C: usize> Smoother<'a, B, C> {
     ) {
         let at = i - first;
         let rest = self.residual[i] - self.before.product(i, first, x) - sums[at];
-        let new = self.level.inverses[i] * rest;
+        let new = self.before.balanced(i, &rest);
         self.before.scatter(i, &new, first, sums);
         sums[at] = if last { new - x[at] } else { SVector::zeros() };
         x[at] = new;

@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use stickslip_friction::{Radial, Tresca};
 
 use super::Sweep;
+use crate::block::invert_all;
 use crate::colouring::Colouring;
 use crate::{BlockMatrix, Energy, Matrix};
 
@@ -55,10 +56,14 @@ proptest! {
         sweep.slabs = Colouring::of(SIZE, 2, 0);
         let nothing = vec![Vector2::zeros(); SIZE];
         let (mut v, mut moved, mut left) = (start.clone(), nothing.clone(), nothing);
-        sweep.forward_with_residual(&energy, &mut v, &mut moved, &mut left);
-        let mut alone = start.clone();
-        sweep.forward(&energy, &mut alone, &mut vec![Vector2::zeros(); SIZE]);
+        sweep.forward_with_residual((&energy, None), &mut v, &mut moved, &mut left);
+        let (mut alone, mut inverses) = (start.clone(), Vec::new());
+        invert_all(&operator, &fixed, &mut inverses)?;
+        sweep.forward((&energy, None), &mut alone, &mut vec![Vector2::zeros(); SIZE]);
         prop_assert_eq!(&alone, &v);
+
+        let mut by_inverses = start.clone();
+        sweep.forward((&energy, Some(&inverses)), &mut by_inverses, &mut vec![Vector2::zeros(); SIZE]);
 
         let mut order = Vec::new();
         for narrow in [false, true] {
@@ -69,12 +74,13 @@ proptest! {
             expected[i] = energy.local_minimizer(i, &expected).expect("definite");
         }
         let (mut back, mut expected_back) = (start.clone(), start.clone());
-        sweep.backward(&energy, &mut back, &mut moved.clone());
+        sweep.backward((&energy, None), &mut back, &mut moved.clone());
         for &i in order.iter().rev() {
             expected_back[i] = energy.local_minimizer(i, &expected_back).expect("definite");
         }
         for i in 0..SIZE {
             prop_assert!((v[i] - expected[i]).amax() < 1e-12);
+            prop_assert!((by_inverses[i] - expected[i]).amax() < 1e-12);
             prop_assert!((back[i] - expected_back[i]).amax() < 1e-12);
             prop_assert!((moved[i] - (start[i] - v[i])).amax() < 1e-12);
             // Friction balances the rest where it acts.

@@ -83,7 +83,7 @@ impl<const C: usize> SparseSystem<'_, C> {
         vertices
             .map(|(k, &vertex)| {
                 let missed = missed(k, &self.linear.correction[vertex]);
-                let local = missed.dot(&(self.multigrid.inverse_block(vertex) * missed));
+                let local = missed.dot(&self.multigrid.balanced(vertex, &missed));
                 if local.is_finite() {
                     local
                 } else {
@@ -119,7 +119,8 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
     /// Each vertex was balanced in its turn: the residual after the sweep is the descent.
     fn sweep(&mut self, v: &mut [SVector<f64, C>]) {
         let residual = &mut self.linear.residual;
-        (self.sweep).forward_with_residual(self.energy, v, self.moved, residual);
+        let blocks = (self.energy, self.multigrid.inverses());
+        (self.sweep).forward_with_residual(blocks, v, self.moved, residual);
     }
 
     fn scales(&self) -> impl Fn(usize) -> f64 + Sync {

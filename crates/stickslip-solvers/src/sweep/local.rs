@@ -1,0 +1,101 @@
+//! The local problem of one vertex, with all others fixed.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::{Inverses, Sweep};
+use crate::block::decouple;
+use crate::block_matrix::{Rows, row_product_behind};
+use crate::field::clear_masked;
+use crate::{BlockMatrix, Energy, Matrix};
+
+impl<const C: usize> Sweep<C> {
+    /// The minimiser over vertex `i` alone, with its position among the frictional ones; `v` begins at vertex `first`.
+    #[inline(always)]
+    pub(super) fn renewed(
+        &self,
+        (energy, inverses): (&Energy<'_, BlockMatrix<C>, C>, Inverses<'_, C>),
+        rows: &Rows<'_, SMatrix<f64, C, C>>,
+        (i, position): (usize, Option<usize>),
+        first: usize,
+        v: &[SVector<f64, C>],
+    ) -> SVector<f64, C> {
+        match position {
+            Some(position) => self.minimizer(energy, rows, position, first, v),
+            None => {
+                let rest = energy.load[i] - row_product_behind(rows, i, first, v);
+                let step = match inverses {
+                    Some(inverses) => inverses[i] * rest,
+                    None => balanced(energy, i, &rest),
+                };
+                v[i - first] + step
+            }
+        }
+    }
+
+    /// The minimiser over the frictional vertex number `position` alone; `v` begins at vertex `first`.
+    #[inline]
+    pub(super) fn minimizer(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        rows: &Rows<'_, SMatrix<f64, C, C>>,
+        position: usize,
+        first: usize,
+        v: &[SVector<f64, C>],
+    ) -> SVector<f64, C> {
+        let vertex = energy.vertices[position];
+        let (block, fixed, own) = (
+            &self.blocks[position],
+            &energy.fixed[vertex],
+            &v[vertex - first],
+        );
+        let product = row_product_behind(rows, vertex, first, v);
+        let mut force = energy.load[vertex] - product + block * own;
+        clear_masked(&mut force, fixed);
+        let minimizer = energy.potentials.minimize(position, block, &force);
+        SVector::from_fn(|c, _| if fixed[c] { own[c] } else { minimizer[c] })
+    }
+
+    /// The squared distance, in the norm of the operator, between a frictional vertex and its local
+    /// minimum.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn local_error(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        position: usize,
+        v: &[SVector<f64, C>],
+    ) -> f64 {
+        let rows = Rows::of(energy.operator);
+        let change = self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]];
+        change.dot(&(self.blocks[position] * change))
+    }
+
+    /// The largest component of the force that moves a frictional vertex to its local minimum.
+    pub(crate) fn local_force(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        position: usize,
+        v: &[SVector<f64, C>],
+    ) -> f64 {
+        let rows = Rows::of(energy.operator);
+        let change = self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]];
+        (self.blocks[position] * change).amax()
+    }
+}
+
+/// The step of a vertex without friction that balances a force.
+#[inline]
+fn balanced<const C: usize>(
+    energy: &Energy<'_, BlockMatrix<C>, C>,
+    i: usize,
+    force: &SVector<f64, C>,
+) -> SVector<f64, C> {
+    let fixed = &energy.fixed[i];
+    let mut step = *force;
+    clear_masked(&mut step, fixed);
+    // Preparation has checked that the block is positive definite.
+    match decouple(&energy.operator.diagonal_block(i), fixed).cholesky() {
+        Some(factor) => factor.solve_mut(&mut step),
+        None => step = SVector::zeros(),
+    }
+    step
+}
