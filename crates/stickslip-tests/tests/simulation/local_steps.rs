@@ -231,6 +231,25 @@ fn arrivals_are_those_of_equal_steps() -> Outcome {
     Ok(())
 }
 
+/// What is left of the equations, with the forces that act in a step.
+#[test]
+fn residuals_are_rounding() -> Outcome {
+    let space = above_a_fault()?;
+    let mut body = simulation(rupture(&space, 4, 0.01)?)?;
+    let dt = 0.9 * limit(&mut body)?;
+    for _ in 0..16 {
+        body.run(&Steps::constant(dt).count(2), |_| ())?;
+        let kept = body.state().clone();
+        body.step(dt)?;
+        let residuals = body.residuals(&kept);
+        assert!(
+            residuals.force < 1e-9 * residuals.force_terms,
+            "{residuals:?}"
+        );
+    }
+    Ok(())
+}
+
 /// The bits are those of one thread, and those of a run that goes on amid a cycle from a checkpoint.
 #[test]
 fn bits_are_the_same() -> Outcome {

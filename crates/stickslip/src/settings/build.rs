@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_core::compiled;
 use stickslip_solvers::{Basis, Matrix, MeshId};
-use stickslip_time::RateScheme;
+use stickslip_time::{RateScheme, SchemeProperties};
 
 use crate::body::{AnySolver, Matrices};
 use crate::numerics::NUMERICS;
@@ -16,6 +16,24 @@ use crate::step::{
     Workspace,
 };
 use crate::{MeshMismatch, SceneError, Simulation};
+
+/// Refuses an explicit scheme without a mass, and one of several stages with local steps.
+pub(super) fn check_scheme<const C: usize>(
+    matrices: &dyn Matrices<C>,
+    properties: &SchemeProperties,
+) -> Result<(), SceneError> {
+    if properties.implicit {
+        return Ok(());
+    }
+    if !matrices.has_mass() {
+        return Err(SceneError::unsupported(SceneError::EXPLICIT, "a mass"));
+    }
+    if matrices.stiffness().levels() > 1 && properties.stages.len() > 1 {
+        let stages = "a stiffness without local steps, or a scheme of one stage";
+        return Err(SceneError::unsupported(SceneError::EXPLICIT, stages));
+    }
+    Ok(())
+}
 
 compiled! {
     /// A simulation whose matrices, scheme and solver are not known by their types.
@@ -51,9 +69,7 @@ compiled! {
         let method = Method::new(scheme, traits);
         let properties = method.scheme.properties();
         let implicit = properties.implicit;
-        if !implicit && !matrices.has_mass() {
-            return Err(SceneError::unsupported(SceneError::EXPLICIT, "a mass"));
-        }
+        check_scheme(&*matrices, &properties)?;
         let (matrices, mut body) = matrices.into_body(solver, implicit)?;
         if ranks.any(!basis.is_empty()) {
             body.change_basis(&basis);

@@ -12,7 +12,7 @@ use crate::body::AnySolver;
 use crate::checks::require;
 use crate::step::Tolerance;
 use crate::{Coupling, Scene, SceneError, Simulation, StateUpdate};
-use build::{build, find_acceleration, renew_operators, replace_solver};
+use build::{build, check_scheme, find_acceleration, renew_operators, replace_solver};
 
 impl<const C: usize> Simulation<C> {
     /// Checks the scene, allocates all memory, and solves for the initial equilibrium if the scene starts from it.
@@ -129,12 +129,10 @@ impl<const C: usize> Simulation<C> {
     ///
     /// # Errors
     /// [`SceneError::Time`] for parameters out of their range, [`SceneError::Unsupported`] for an explicit scheme
-    /// and a scene without mass.
+    /// and a scene without mass, and for one of several stages and local steps.
     pub fn set_scheme(&mut self, scheme: impl RateScheme + 'static) -> Result<(), SceneError> {
         scheme.validate()?;
-        if !self.problem.matrices.has_mass() && !scheme.properties().implicit {
-            return Err(SceneError::unsupported(SceneError::EXPLICIT, "a mass"));
-        }
+        check_scheme(&*self.problem.matrices, &scheme.properties())?;
         self.problem.method.set_scheme(Arc::new(scheme));
         self.renew_operators();
         self.renew_algorithmic();

@@ -14,7 +14,7 @@ pub(super) fn interval(level: usize) -> usize {
 }
 
 /// The weights of levels in the forces after so many steps; 1 alone for a stiffness without levels.
-pub(super) fn weights_after(steps: usize) -> [f64; MOST] {
+pub(crate) fn weights_after(steps: usize) -> [f64; MOST] {
     std::array::from_fn(|level| {
         let interval = interval(level);
         if steps.is_multiple_of(interval) {

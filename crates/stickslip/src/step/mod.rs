@@ -24,6 +24,7 @@ pub use couple::{Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, St
 pub(crate) use finite::check_finite;
 pub(crate) use highest_frequency::highest_eigenvalue;
 pub(crate) use initial_acceleration::InitialAcceleration;
+pub(crate) use local_steps::weights_after;
 pub(crate) use method::{Method, Tolerance, Traits};
 pub(crate) use operators::Operators;
 pub(crate) use reactions::Reactions;

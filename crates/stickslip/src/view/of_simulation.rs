@@ -5,7 +5,7 @@ use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::placement::Constraints;
 use crate::scene::Loads;
-use crate::step::{Span, has_inertia};
+use crate::step::{Span, has_inertia, weights_after};
 use crate::{Simulation, StepState};
 use nalgebra::SVector;
 use stickslip_solvers::MeshId;
@@ -102,6 +102,10 @@ impl<const C: usize> Simulation<C> {
     fn left_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
         let (p, state) = (&self.problem, &self.state);
         let load = self.applied_load();
+        if p.matrices.stiffness().levels() > 1 {
+            self.left_in_cycle(load, vertices, forces);
+            return;
+        }
         for (force, &vertex) in forces.iter_mut().zip(vertices) {
             let stiffness = p.matrices.stiffness();
             let mut left = load[vertex] - stiffness.product_at(vertex, &state.displacement);
@@ -118,6 +122,35 @@ impl<const C: usize> Simulation<C> {
                 }
             }
             *force = left;
+        }
+    }
+
+    /// The same with the forces that act after the steps of a cycle of local steps.
+    fn left_in_cycle(
+        &self,
+        load: &[SVector<f64, C>],
+        vertices: &[usize],
+        forces: &mut [SVector<f64, C>],
+    ) {
+        let (matrices, state) = (&self.problem.matrices, &self.state);
+        let weights = weights_after(state.clock.step());
+        let mut left = load.to_vec();
+        let (u, v, a) = (&state.displacement, &state.velocity, &state.acceleration);
+        (matrices.stiffness()).multiply_add_levels(&weights, -1.0, u, &mut left);
+        if let Some(mass) = matrices.mass() {
+            mass.multiply_add(-1.0, a, &mut left);
+        }
+        if let Some(viscosity) = matrices.viscosity() {
+            viscosity.multiply_add_levels(&weights, -1.0, v, &mut left);
+        }
+        let lag = self.lag();
+        if lag > 0.0 {
+            for viscosity in matrices.lagged_viscosities() {
+                viscosity.multiply_add_levels(&weights, lag, a, &mut left);
+            }
+        }
+        for (force, &vertex) in forces.iter_mut().zip(vertices) {
+            *force = left[vertex];
         }
     }
 }

@@ -5,7 +5,7 @@ use stickslip_friction::modulus;
 
 use super::{Snapshot, StepView};
 use crate::laws::StateStep;
-use crate::step::{Problem, Span, Workspace};
+use crate::step::{Problem, Span, Workspace, weights_after};
 use crate::sums::largest;
 use crate::{Simulation, StepState};
 
@@ -85,20 +85,22 @@ fn force_residual<const C: usize>(simulation: &Simulation<C>) -> (f64, f64) {
             *product = SVector::zeros();
         }
     };
-    (p.matrices.stiffness()).multiply_add(1.0, &now.displacement, &mut product);
+    let weights = weights_after(now.clock.step());
+    let (stiffness, u) = (p.matrices.stiffness(), &now.displacement);
+    stiffness.multiply_add_levels(&weights, 1.0, u, &mut product);
     subtract(&mut product);
     if let Some(mass) = p.matrices.mass() {
         mass.multiply_add(1.0, &now.acceleration, &mut product);
         subtract(&mut product);
     }
     if let Some(viscosity) = p.matrices.viscosity() {
-        viscosity.multiply_add(1.0, &now.velocity, &mut product);
+        viscosity.multiply_add_levels(&weights, 1.0, &now.velocity, &mut product);
         subtract(&mut product);
     }
     let lag = simulation.lag();
     if lag > 0.0 {
         for viscosity in p.matrices.lagged_viscosities() {
-            viscosity.multiply_add(-lag, &now.acceleration, &mut product);
+            viscosity.multiply_add_levels(&weights, -lag, &now.acceleration, &mut product);
         }
         subtract(&mut product);
     }
