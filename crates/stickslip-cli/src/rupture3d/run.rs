@@ -134,7 +134,7 @@ fn scene(
     if arguments.levels > 1 {
         let levels = usize::from(arguments.levels);
         stiffness = stiffness.with_local_steps(space, &mass, fault.vertices(), levels)?;
-        println!(
+        note!(
             "cells that act every 1, 2, 4, .. steps: {:?}",
             stiffness.cells_of_levels()
         );

@@ -6,6 +6,9 @@ use stickslip_fem::ElementStiffness;
 use super::ElementOperator;
 use crate::{Basis, BlockMatrix, MassMatrix, Matrix, MatrixDefect, Operator};
 
+/// Adds a factor times the forces of a field to a field, in the unknowns of the mesh.
+type Product<'a, const C: usize> = &'a dyn Fn(f64, &[SVector<f64, C>], &mut [SVector<f64, C>]);
+
 impl<const C: usize> Matrix<C> for ElementOperator<C> {
     fn vertex_count(&self) -> usize {
         let elements = self.elements.first();
@@ -121,7 +124,7 @@ impl<const C: usize> ElementOperator<C> {
         scale: f64,
         x: &[SVector<f64, C>],
         y: &mut [SVector<f64, C>],
-        product: &dyn Fn(f64, &[SVector<f64, C>], &mut [SVector<f64, C>]),
+        product: Product<'_, C>,
     ) {
         let Some(changed) = &self.basis else {
             return product(scale, x, y);
