@@ -26,7 +26,8 @@ impl<const D: usize> ElementStiffness<D> {
     /// asynchronous variational integrator (A. Lew, J. Marsden, M. Ortiz, M. West, Arch. Ration. Mech. Anal. 167 (2003)) with
     /// nested steps: of second order, symmetric in time, and it conserves momentum.
     ///
-    /// Accelerations and reactions of a step hold these impulses; their means over a cycle of `2^(levels - 1)` steps do not.
+    /// Accelerations and reactions of a step hold these impulses; their means over a cycle of `2^(levels - 1)` steps are the
+    /// acceleration and the reaction.
     ///
     /// Vertices with friction must be among the `finest`; a scene refuses others. Multiples and
     /// [viscosities](Self::viscosity_by_cell) are made of the result, to have its levels. One level is the stiffness as it was.

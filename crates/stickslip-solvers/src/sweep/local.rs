@@ -64,8 +64,7 @@ impl<const C: usize> Sweep<C> {
         position: usize,
         v: &[SVector<f64, C>],
     ) -> f64 {
-        let rows = Rows::of(energy.operator);
-        let change = self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]];
+        let change = self.local_change(energy, position, v);
         change.dot(&(self.blocks[position] * change))
     }
 
@@ -76,9 +75,18 @@ impl<const C: usize> Sweep<C> {
         position: usize,
         v: &[SVector<f64, C>],
     ) -> f64 {
+        (self.blocks[position] * self.local_change(energy, position, v)).amax()
+    }
+
+    /// The way of a frictional vertex to its local minimum.
+    fn local_change(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        position: usize,
+        v: &[SVector<f64, C>],
+    ) -> SVector<f64, C> {
         let rows = Rows::of(energy.operator);
-        let change = self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]];
-        (self.blocks[position] * change).amax()
+        self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]]
     }
 }
 

@@ -160,7 +160,7 @@ impl<const C: usize> Level<C> {
     /// Inverts the diagonal block of a row; false if it is not positive definite.
     fn invert(&mut self, i: usize, block: &SMatrix<f64, C, C>) -> bool {
         let inverse = inverse(block, &self.dropped[i]);
-        // Without one no smoothing there: what is left is the business of the other levels.
+        // A row without an inverse is not smoothed on this level: the other levels reduce its error.
         (self.couplings).set_inverse(i, &inverse.unwrap_or_else(SMatrix::zeros));
         inverse.is_some()
     }
