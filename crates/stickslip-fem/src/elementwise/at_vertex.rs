@@ -19,17 +19,21 @@ impl<const D: usize> ElementStiffness<D> {
     /// The cells of a vertex.
     fn cells_of(&self, vertex: usize) -> impl Iterator<Item = Cell<D>> {
         let groups = &self.elements.groups;
-        self.elements.copies.cells(vertex).map(move |(four, cell)| {
-            let group = groups.group_of(four);
+        self.elements.copies.cells(vertex).map(move |(row, cell)| {
+            let group = groups.group_of(row);
             let begin = groups.starts[group];
-            let place = |k: usize| begin + usize::from(groups.corners[four][k.min(D)][cell]);
+            let corners = groups.corners(group, row);
+            let place = |k: usize| begin + usize::from(corners[k.min(D)][cell]);
             let positions: [SVector<f64, D>; MAX_CORNERS] = std::array::from_fn(|k| {
                 let x = numbers(groups.positions[place(k)]);
                 SVector::from_fn(|c, _| x[c])
             });
-            let (lambda, mu) = self.lame.of_cell(four, cell);
+            let (lambda, mu) = self.lame.of_cell(row, cell);
+            let mut simplex = Simplex::new(&positions, &[0, 1, 2, 3][..=D]);
+            // Chains number the corners of a cell in either orientation.
+            simplex.volume = simplex.volume.abs();
             Cell {
-                simplex: Simplex::new(&positions, &[0, 1, 2, 3][..=D]),
+                simplex,
                 corners: std::array::from_fn(|k| groups.vertices[place(k)] as usize),
                 lambda: self.factor * lambda,
                 mu: self.factor * mu,

@@ -40,7 +40,7 @@ impl Lists {
 pub(super) struct Copies {
     /// In the vertices of the groups.
     groups: Lists,
-    /// In the cells: four times the number of the four, and the number of the cell in it.
+    /// In the cells: four times the number of the row, and the number of the cell in it.
     cells: Lists,
 }
 
@@ -54,10 +54,10 @@ impl Copies {
             }),
             cells: Lists::of(vertices, |add| {
                 for group in 0..groups.count() {
-                    for four in groups.fours[group]..groups.fours[group + 1] {
-                        for cell in 0..groups.live(group, four) {
-                            for corner in groups.corners_of(group, four, cell) {
-                                add(corner, (4 * four + cell) as u32);
+                    for row in groups.rows[group]..groups.rows[group + 1] {
+                        for cell in 0..groups.live(group, row) {
+                            for corner in groups.corners_of(group, row, cell) {
+                                add(corner, (4 * row + cell) as u32);
                             }
                         }
                     }
@@ -90,7 +90,7 @@ impl Copies {
         sum
     }
 
-    /// The cells of a vertex: the number of the four, and of the cell in it.
+    /// The cells of a vertex: the number of the row, and of the cell in it.
     pub(super) fn cells(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> {
         let cells = self.cells.at(vertex).iter();
         cells.map(|&cell| (cell as usize / 4, cell as usize % 4))

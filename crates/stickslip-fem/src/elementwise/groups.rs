@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 
+use super::chains::{CHAIN, Chains, Places};
 use super::kernel::Corners;
 use super::lanes::{Row, row};
 use crate::Mesh;
@@ -20,9 +21,11 @@ const MOST: usize = 1 << 16;
 pub(super) struct Groups {
     /// The first vertex of each group in `vertices`, and the number of all.
     pub(super) starts: Vec<usize>,
-    /// The first four cells of each group in `corners`, and the number of all.
-    pub(super) fours: Vec<usize>,
-    /// The number of cells in the last four of each group.
+    /// The first row of each group in `cells`, and the number of all.
+    pub(super) rows: Vec<usize>,
+    /// The first of each group in `chains`, and the number of all.
+    pub(super) chained: Vec<usize>,
+    /// The number of cells in the last row of each group.
     pub(super) live: Vec<usize>,
     /// The level of local steps of each group, not decreasing.
     pub(super) level: Vec<usize>,
@@ -30,11 +33,14 @@ pub(super) struct Groups {
     pub(super) vertices: Vec<u32>,
     /// Their positions \[m\].
     pub(super) positions: Vec<Row>,
-    /// The cells, by fours; the last four of a group repeat its last cell.
-    pub(super) corners: Vec<Corners>,
+    /// The vertices of chains, by fours.
+    pub(super) chains: Vec<Corners<6>>,
+    /// The corners of the other cells, by fours; the last four of a group repeat its last cell.
+    pub(super) singles: Vec<Corners<4>>,
     /// The corners of a cell.
     corners_of_cell: usize,
-    /// The number of each cell among the cells of the mesh, by fours.
+    /// The number of each cell among the cells of the mesh, in rows of four: those of the chains of a group, as many rows for four
+    /// chains as a chain has cells, and then its other cells.
     pub(super) cells: Vec<[u32; 4]>,
 }
 
@@ -54,12 +60,14 @@ impl Groups {
         cells.sort_unstable();
         let mut groups = Self {
             starts: vec![0],
-            fours: vec![0],
+            rows: vec![0],
+            chained: vec![0],
             live: Vec::new(),
             level: Vec::new(),
             vertices: Vec::new(),
             positions: Vec::new(),
-            corners: Vec::with_capacity(cells.len().div_ceil(4)),
+            chains: Vec::with_capacity(cells.len() / (4 * CHAIN)),
+            singles: Vec::new(),
             cells: Vec::with_capacity(cells.len().div_ceil(4)),
             corners_of_cell: D + 1,
         };
@@ -94,20 +102,48 @@ impl Groups {
         };
         self.positions.extend(vertices.iter().map(position));
         self.vertices.extend(vertices);
-        for four in cells.chunks(4) {
-            let own: [u32; 4] = std::array::from_fn(|l| four[l.min(four.len() - 1)]);
-            let mut corners = Corners::default();
-            for (l, &cell) in own.iter().enumerate() {
-                for (k, &p) in mesh.cell(cell as usize).iter().enumerate() {
-                    corners[k][l] = places[p as usize] as u16;
+        let corners: Vec<Places> = cells
+            .iter()
+            .map(|&cell| {
+                let mut corners = Places::default();
+                for (corner, &p) in corners.iter_mut().zip(mesh.cell(cell as usize)) {
+                    *corner = places[p as usize] as u16;
                 }
-            }
-            self.corners.push(corners);
-            self.cells.push(own);
-        }
+                corners
+            })
+            .collect();
+        self.push_cells(cells, &corners);
         self.starts.push(self.vertices.len());
-        self.fours.push(self.corners.len());
-        self.live.push((cells.len() - 1) % 4 + 1);
+    }
+
+    /// Adds the cells of a group with their corners among its vertices.
+    fn push_cells(&mut self, cells: &[u32], corners: &[Places]) {
+        let found = Chains::of(corners, self.corners_of_cell);
+        let number = |cell: u16| cells[usize::from(cell)];
+        let (fours, others) = found.chains.as_chunks::<4>();
+        for four in fours {
+            for c in 0..CHAIN {
+                self.cells.push(four.map(|(cells, _)| number(cells[c])));
+            }
+            let vertices = four.map(|(_, vertices)| vertices);
+            self.chains
+                .push(std::array::from_fn(|k| vertices.map(|all| all[k])));
+        }
+        let others = others.iter().flat_map(|(cells, _)| *cells);
+        let singles: Vec<u16> = others.chain(found.singles).collect();
+        for four in singles.chunks(4) {
+            let own: [u16; 4] = std::array::from_fn(|l| four[l.min(four.len() - 1)]);
+            self.cells.push(own.map(number));
+            let corners = own.map(|cell| corners[usize::from(cell)]);
+            self.singles
+                .push(std::array::from_fn(|k| corners.map(|all| all[k])));
+        }
+        self.rows.push(self.cells.len());
+        self.chained.push(self.chains.len());
+        self.live.push(match singles.len() {
+            0 => 4,
+            many => (many - 1) % 4 + 1,
+        });
     }
 
     /// The number of groups.
@@ -128,30 +164,62 @@ impl Groups {
         begin.zip(end).map_or(0..0, |(begin, end)| begin..end + 1)
     }
 
-    /// The group of four cells.
-    pub(super) fn group_of(&self, four: usize) -> usize {
-        self.fours.partition_point(|&first| first <= four) - 1
+    /// The rows of the cells in chains of a group, and those of its other cells.
+    pub(super) fn rows_of(&self, group: usize) -> [Range<usize>; 2] {
+        let (begin, end) = (self.rows[group], self.rows[group + 1]);
+        let middle = begin + CHAIN * (self.chained[group + 1] - self.chained[group]);
+        [begin..middle, middle..end]
+    }
+
+    /// The other cells of a group, by fours.
+    pub(super) fn singles_of(&self, group: usize) -> &[Corners<4>] {
+        // Those of all groups before this one are the rows that are of no chain.
+        let [before, after] = [group, group + 1].map(|g| self.rows[g] - CHAIN * self.chained[g]);
+        &self.singles[before..after]
+    }
+
+    /// The group of a row of cells.
+    pub(super) fn group_of(&self, row: usize) -> usize {
+        self.rows.partition_point(|&first| first <= row) - 1
+    }
+
+    /// The corners of the cells of a row, by corner: places among the vertices of the group.
+    pub(super) fn corners(&self, group: usize, row: usize) -> &[[u16; 4]] {
+        let [chained, others] = self.rows_of(group);
+        let all = match row.checked_sub(others.start) {
+            Some(single) => &self.singles_of(group)[single][..],
+            None => {
+                let place = row - chained.start;
+                &self.chains[self.chained[group] + place / CHAIN][place % CHAIN..]
+            }
+        };
+        &all[..self.corners_of_cell]
     }
 
     /// The vertices of a cell.
     pub(super) fn corners_of(
         &self,
         group: usize,
-        four: usize,
+        row: usize,
         cell: usize,
     ) -> impl Iterator<Item = u32> {
         let vertices = &self.vertices[self.starts[group]..self.starts[group + 1]];
-        let corners = self.corners[four].iter().take(self.corners_of_cell);
+        let corners = self.corners(group, row).iter();
         corners.map(move |corner| vertices[usize::from(corner[cell])])
     }
 
-    /// The number of cells among four: 4 but for the last of a group.
-    pub(super) fn live(&self, group: usize, four: usize) -> usize {
-        if four + 1 == self.fours[group + 1] {
+    /// The number of cells in a row: 4 but for the last of a group.
+    pub(super) fn live(&self, group: usize, row: usize) -> usize {
+        if row + 1 == self.rows[group + 1] {
             self.live[group]
         } else {
             4
         }
+    }
+
+    /// The number of cells of a group.
+    pub(super) fn cell_count(&self, group: usize) -> usize {
+        4 * (self.rows[group + 1] - self.rows[group] - 1) + self.live[group]
     }
 }
 

@@ -1,76 +1,131 @@
-//! The forces of four cells at once.
+//! The forces of four chains of cells at once.
 
 use super::lanes::{Lanes, Row};
 
 // Loops, not closures: these would not be compiled for the wide registers.
 
-/// The corners of four cells, by corner: positions among the vertices of their group.
-pub(super) type Corners = [[u16; 4]; 4];
+/// The vertices of four chains or cells, by vertex: places among the vertices of their group.
+pub(super) type Corners<const K: usize> = [[u16; 4]; K];
 
 /// Lamé's parameters of four cells \[Pa\].
 pub(super) type Lame = [Row; 2];
 
-/// Adds the forces `A u` of the first `LIVE` of four cells to those at their vertices.
+/// The vertex that all cells of a chain share.
+const ORIGIN: usize = 2;
+
+/// The vertices of a cell of a chain but the origin.
+#[inline(always)]
+const fn vertex(cell: usize, k: usize) -> usize {
+    if cell + k < ORIGIN {
+        cell + k
+    } else {
+        cell + k + 1
+    }
+}
+
+/// Adds the forces `A u` of the first `LIVE` of four chains of `N` cells to those at their vertices.
 ///
-/// With edges `e_k = x_k - x_0` and their cofactors `c_k = det(J) grad N_k`, `k = 1..D`,
+/// With edges `e_k = x_k - x_0` of a cell and their cofactors `c_k = det(J) grad N_k`, `k = 1..D`,
 ///
 /// ```text
-/// H = sum of (u_k - u_0) c_k^T,    S = w (lambda tr H I + mu (H + H^T)),    f_k = S c_k,    w = 1/(D! det J)
+/// H = sum of (u_k - u_0) c_k^T,    S = w (lambda tr H I + mu (H + H^T)),    f_k = S c_k,    w = 1/(D! |det J|)
 /// ```
 ///
-/// and `f_0 = -(f_1 + .. + f_D)`: `w` is the volume over `det(J)^2`, and there is one division.
+/// and `w` is the volume over `det(J)^2`: there is one division. `x_0` is the vertex that the cells of a chain share; its force is
+/// minus the sum of the others. Positions, vectors and forces of a vertex are read once for all of its cells in the chain.
 #[inline(always)]
-pub(super) fn add_forces<L: Lanes, const D: usize, const LIVE: usize>(
+pub(super) fn add_forces<
+    L: Lanes,
+    const D: usize,
+    const N: usize,
+    const K: usize,
+    const LIVE: usize,
+>(
     lanes: L,
-    corners: &Corners,
-    lame: &Lame,
+    corners: &Corners<K>,
+    lame: [&Lame; N],
     positions: &[Row],
     field: &[Row],
     forces: &mut [Row],
 ) {
-    let (cofactors, weight) = geometry::<L, D>(lanes, corners, positions);
-    let steps = edges::<L, D>(lanes, corners, field);
     let zero = lanes.splat(0.0);
-    let mut h = [[zero; 3]; 3];
+    let edges = differences::<L, D, N, K>(lanes, corners, positions);
+    let steps = differences::<L, D, N, K>(lanes, corners, field);
+    let mut force = [[zero; 3]; K];
+    add_cell::<L, D, K, 0>(lanes, lame[0], &edges, &steps, &mut force);
+    if N > 1 {
+        add_cell::<L, D, K, 1>(lanes, lame[1], &edges, &steps, &mut force);
+        add_cell::<L, D, K, 2>(lanes, lame[2], &edges, &steps, &mut force);
+    }
+    let mut origin = [zero; 3];
+    for v in 0..N + D {
+        if v != ORIGIN {
+            for i in 0..D {
+                origin[i] = lanes.sub(origin[i], force[v][i]);
+            }
+            scatter::<L, LIVE>(lanes, &corners[v], force[v], forces);
+        }
+    }
+    scatter::<L, LIVE>(lanes, &corners[ORIGIN], origin, forces);
+}
+
+/// Adds the forces of the cells `CELL` of four chains to those at their vertices but the origin.
+#[inline(always)]
+fn add_cell<L: Lanes, const D: usize, const K: usize, const CELL: usize>(
+    lanes: L,
+    lame: &Lame,
+    edges: &[[L::Four; 3]; K],
+    steps: &[[L::Four; 3]; K],
+    force: &mut [[L::Four; 3]; K],
+) {
+    let (cofactors, weight) = geometry::<L, D, K, CELL>(lanes, edges);
+    let mut h = [[lanes.splat(0.0); 3]; 3];
     for i in 0..D {
         for j in 0..D {
-            h[i][j] = lanes.mul(steps[0][i], cofactors[0][j]);
+            h[i][j] = lanes.mul(steps[vertex(CELL, 0)][i], cofactors[0][j]);
             for k in 1..D {
-                h[i][j] = lanes.mul_add(steps[k][i], cofactors[k][j], h[i][j]);
+                h[i][j] = lanes.mul_add(steps[vertex(CELL, k)][i], cofactors[k][j], h[i][j]);
             }
         }
     }
     let stress = stress::<L, D>(lanes, lame, weight, &h);
-    let mut first = [zero; 3];
     for k in 0..D {
-        let mut force = [zero; 3];
+        let force = &mut force[vertex(CELL, k)];
+        // The last vertex of each cell is new.
+        let new = CELL == 0 || k + 1 == D;
         for i in 0..D {
-            force[i] = lanes.mul(stress[i][0], cofactors[k][0]);
-            for j in 1..D {
-                force[i] = lanes.mul_add(stress[i][j], cofactors[k][j], force[i]);
+            for j in 0..D {
+                force[i] = if new && j == 0 {
+                    lanes.mul(stress[i][j], cofactors[k][j])
+                } else {
+                    lanes.mul_add(stress[i][j], cofactors[k][j], force[i])
+                };
             }
-            first[i] = lanes.sub(first[i], force[i]);
         }
-        scatter::<L, LIVE>(lanes, &corners[k + 1], force, forces);
     }
-    scatter::<L, LIVE>(lanes, &corners[0], first, forces);
 }
 
-/// The differences of the vectors at corners `1..D` from that at corner 0.
+/// The differences of the vectors at the vertices of chains from that at the origin.
 #[inline(always)]
-fn edges<L: Lanes, const D: usize>(lanes: L, corners: &Corners, rows: &[Row]) -> [[L::Four; 3]; 3] {
-    let origin = at(lanes, &corners[0], rows);
-    let mut edges = [origin; 3];
-    for k in 0..D {
-        let end = at(lanes, &corners[k + 1], rows);
-        for i in 0..D {
-            edges[k][i] = lanes.sub(end[i], origin[i]);
+fn differences<L: Lanes, const D: usize, const N: usize, const K: usize>(
+    lanes: L,
+    corners: &Corners<K>,
+    rows: &[Row],
+) -> [[L::Four; 3]; K] {
+    let origin = at(lanes, &corners[ORIGIN], rows);
+    let mut differences = [origin; K];
+    for v in 0..N + D {
+        if v != ORIGIN {
+            let end = at(lanes, &corners[v], rows);
+            for i in 0..D {
+                differences[v][i] = lanes.sub(end[i], origin[i]);
+            }
         }
     }
-    edges
+    differences
 }
 
-/// The vectors at one corner of each cell, by components.
+/// The vectors at one vertex of each chain, by components.
 #[inline(always)]
 fn at<L: Lanes>(lanes: L, corner: &[u16; 4], rows: &[Row]) -> [L::Four; 3] {
     lanes.columns([
@@ -81,35 +136,35 @@ fn at<L: Lanes>(lanes: L, corner: &[u16; 4], rows: &[Row]) -> [L::Four; 3] {
     ])
 }
 
-/// The cofactors of the edges, and `1/(D! det J)`.
+/// The cofactors of the edges of a cell, and `1/(D! |det J|)`.
 #[inline(always)]
-fn geometry<L: Lanes, const D: usize>(
+fn geometry<L: Lanes, const D: usize, const K: usize, const CELL: usize>(
     lanes: L,
-    corners: &Corners,
-    positions: &[Row],
+    edges: &[[L::Four; 3]; K],
 ) -> ([[L::Four; 3]; 3], L::Four) {
-    let e = edges::<L, D>(lanes, corners, positions);
-    let mut cofactors = e;
+    let zero = lanes.splat(0.0);
+    let mut cofactors = [[zero; 3]; 3];
     if D == 2 {
-        let zero = lanes.splat(0.0);
-        cofactors[0] = [e[1][1], lanes.sub(zero, e[1][0]), zero];
-        cofactors[1] = [lanes.sub(zero, e[0][1]), e[0][0], zero];
+        let (e, f) = (edges[vertex(CELL, 0)], edges[vertex(CELL, 1)]);
+        cofactors[0] = [f[1], lanes.sub(zero, f[0]), zero];
+        cofactors[1] = [lanes.sub(zero, e[1]), e[0], zero];
     } else {
         for k in 0..3 {
-            let (p, q) = ((k + 1) % 3, (k + 2) % 3);
+            let (p, q) = (vertex(CELL, (k + 1) % 3), vertex(CELL, (k + 2) % 3));
             for i in 0..3 {
                 let (r, s) = ((i + 1) % 3, (i + 2) % 3);
-                let other = lanes.mul(e[p][s], e[q][r]);
-                cofactors[k][i] = lanes.mul_sub(e[p][r], e[q][s], other);
+                let other = lanes.mul(edges[p][s], edges[q][r]);
+                cofactors[k][i] = lanes.mul_sub(edges[p][r], edges[q][s], other);
             }
         }
     }
-    let mut determinant = lanes.mul(e[0][0], cofactors[0][0]);
+    let e = edges[vertex(CELL, 0)];
+    let mut determinant = lanes.mul(e[0], cofactors[0][0]);
     for i in 1..D {
-        determinant = lanes.mul_add(e[0][i], cofactors[0][i], determinant);
+        determinant = lanes.mul_add(e[i], cofactors[0][i], determinant);
     }
     let factorial = if D == 2 { 2.0 } else { 6.0 };
-    let weight = lanes.div(lanes.splat(1.0 / factorial), determinant);
+    let weight = lanes.div(lanes.splat(1.0 / factorial), lanes.abs(determinant));
     (cofactors, weight)
 }
 
@@ -139,7 +194,7 @@ fn stress<L: Lanes, const D: usize>(
     stress
 }
 
-/// Adds vectors to those at one corner of each cell.
+/// Adds vectors to those at one vertex of each chain.
 #[inline(always)]
 fn scatter<L: Lanes, const LIVE: usize>(
     lanes: L,

@@ -4,7 +4,7 @@ use super::groups::Groups;
 use super::kernel::Lame;
 use super::lanes::{Numbers, numbers, row};
 
-/// Lamé's parameters of the cells \[Pa\]: one pair, or by fours of cells.
+/// Lamé's parameters of the cells \[Pa\]: one pair, or by rows of four cells.
 #[derive(Debug)]
 pub(super) enum Materials {
     One(Lame),
@@ -26,18 +26,18 @@ impl Materials {
         }
     }
 
-    /// Those of one of four cells.
-    pub(super) fn of_cell(&self, four: usize, cell: usize) -> (f64, f64) {
-        let [lambda, mu] = self.of_four(four).map(numbers);
+    /// Those of a cell of a row.
+    pub(super) fn of_cell(&self, row: usize, cell: usize) -> (f64, f64) {
+        let [lambda, mu] = self.of_row(row).map(numbers);
         (lambda[cell], mu[cell])
     }
 
-    /// Those of four cells.
+    /// Those of a row of cells.
     #[inline(always)]
-    pub(super) fn of_four(&self, four: usize) -> &Lame {
+    pub(super) fn of_row(&self, row: usize) -> &Lame {
         match self {
             Self::One(one) => one,
-            Self::Many(all) => &all[four],
+            Self::Many(all) => &all[row],
         }
     }
 }

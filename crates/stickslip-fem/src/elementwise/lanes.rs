@@ -48,6 +48,8 @@ pub(super) trait Lanes: Copy {
     fn mul_sub(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
     /// `a / b`.
     fn div(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    /// `|a|`.
+    fn abs(self, a: Self::Four) -> Self::Four;
     /// The first three columns of four rows.
     fn columns(self, rows: [&Row; 4]) -> [Self::Four; 3];
     /// The rows of three columns, and zero behind them.
@@ -109,6 +111,11 @@ impl Lanes for Arrays {
     }
 
     #[inline(always)]
+    fn abs(self, a: Numbers) -> Numbers {
+        each(|l| a[l].abs())
+    }
+
+    #[inline(always)]
     fn columns(self, rows: [&Row; 4]) -> [Numbers; 3] {
         let rows = rows.map(|row| numbers(*row));
         [0, 1, 2].map(|c| each(|l| rows[l][c]))
@@ -167,6 +174,11 @@ impl Lanes for V3 {
     #[inline(always)]
     fn div(self, a: __m256d, b: __m256d) -> __m256d {
         self.avx._mm256_div_pd(a, b)
+    }
+
+    #[inline(always)]
+    fn abs(self, a: __m256d) -> __m256d {
+        self.avx._mm256_andnot_pd(self.splat(-0.0), a)
     }
 
     #[inline(always)]

@@ -123,14 +123,14 @@ impl<const D: usize> ElementStiffness<D> {
     fn reordered(&self, elements: &Elements) -> Materials {
         let own = &self.elements.groups;
         let mut places = vec![(0, 0); self.elements.mesh.cells];
-        for (four, cells) in own.cells.iter().enumerate() {
+        for (row, cells) in own.cells.iter().enumerate() {
             for (place, &cell) in cells.iter().enumerate() {
-                places[cell as usize] = (four, place);
+                places[cell as usize] = (row, place);
             }
         }
         Materials::of(&elements.groups, &|cell| {
-            let (four, place) = places[cell];
-            self.lame.of_cell(four, place)
+            let (row, place) = places[cell];
+            self.lame.of_cell(row, place)
         })
     }
 
@@ -144,8 +144,7 @@ impl<const D: usize> ElementStiffness<D> {
         let groups = &self.elements.groups;
         let mut counts = vec![0; groups.levels()];
         for group in 0..groups.count() {
-            let fours = groups.fours[group + 1] - groups.fours[group];
-            counts[groups.level[group]] += 4 * (fours - 1) + groups.live[group];
+            counts[groups.level[group]] += groups.cell_count(group);
         }
         counts
     }
@@ -157,7 +156,7 @@ impl<const D: usize> ElementStiffness<D> {
     pub fn level_at(&self, vertex: usize) -> usize {
         let groups = &self.elements.groups;
         let cells = self.elements.copies.cells(vertex);
-        let levels = cells.map(|(four, _)| groups.level[groups.group_of(four)]);
+        let levels = cells.map(|(row, _)| groups.level[groups.group_of(row)]);
         levels.max().unwrap_or(0)
     }
 

@@ -1,6 +1,7 @@
 //! Stiffness without a matrix: products by elements.
 
 mod at_vertex;
+mod chains;
 mod copies;
 mod groups;
 mod kernel;

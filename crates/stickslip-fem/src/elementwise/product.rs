@@ -7,6 +7,7 @@ use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use stickslip_core::compiled;
 
 use super::ElementStiffness;
+use super::chains::CHAIN;
 use super::kernel::add_forces;
 use super::lanes::{Arrays, Lanes, Row, row};
 
@@ -147,18 +148,22 @@ impl<const D: usize> Group<'_, D> {
         let groups = &self.stiffness.elements.groups;
         let (begin, end) = (groups.starts[self.group], groups.starts[self.group + 1]);
         let positions = &groups.positions[begin..end];
-        let (first, last) = (groups.fours[self.group], groups.fours[self.group + 1] - 1);
+        let lame = |row: usize| self.stiffness.lame.of_row(row);
+        let [chained, others] = groups.rows_of(self.group);
+        let chains = &groups.chains[groups.chained[self.group]..groups.chained[self.group + 1]];
         let Self { field, forces, .. } = self;
-        for four in first..last {
-            let lame = self.stiffness.lame.of_four(four);
-            add_forces::<L, D, 4>(lanes, &groups.corners[four], lame, positions, field, forces);
+        for (corners, row) in chains.iter().zip(chained.step_by(CHAIN)) {
+            let lame = [lame(row), lame(row + 1), lame(row + 2)];
+            add_forces::<L, D, CHAIN, 6, 4>(lanes, corners, lame, positions, field, forces);
         }
-        let (corners, lame) = (&groups.corners[last], self.stiffness.lame.of_four(last));
-        match groups.live[self.group] {
-            1 => add_forces::<L, D, 1>(lanes, corners, lame, positions, field, forces),
-            2 => add_forces::<L, D, 2>(lanes, corners, lame, positions, field, forces),
-            3 => add_forces::<L, D, 3>(lanes, corners, lame, positions, field, forces),
-            _ => add_forces::<L, D, 4>(lanes, corners, lame, positions, field, forces),
+        for (corners, row) in groups.singles_of(self.group).iter().zip(others) {
+            let lame = [lame(row)];
+            match groups.live(self.group, row) {
+                1 => add_forces::<L, D, 1, 4, 1>(lanes, corners, lame, positions, field, forces),
+                2 => add_forces::<L, D, 1, 4, 2>(lanes, corners, lame, positions, field, forces),
+                3 => add_forces::<L, D, 1, 4, 3>(lanes, corners, lame, positions, field, forces),
+                _ => add_forces::<L, D, 1, 4, 4>(lanes, corners, lame, positions, field, forces),
+            }
         }
     }
 }
