@@ -171,6 +171,11 @@ impl Groups {
         [begin..middle, middle..end]
     }
 
+    /// The chains of a group, by fours.
+    pub(super) fn chains_of(&self, group: usize) -> &[Corners<6>] {
+        &self.chains[self.chained[group]..self.chained[group + 1]]
+    }
+
     /// The other cells of a group, by fours.
     pub(super) fn singles_of(&self, group: usize) -> &[Corners<4>] {
         // Those of all groups before this one are the rows that are of no chain.

@@ -35,27 +35,28 @@ const fn vertex(cell: usize, k: usize) -> usize {
 /// minus the sum of the others. Positions, vectors and forces of a vertex are read once for all of its cells in the chain.
 #[inline(always)]
 pub(super) fn add_forces<
-    L: Lanes,
+    L: Lanes<F>,
     const D: usize,
     const N: usize,
     const K: usize,
     const LIVE: usize,
+    const F: usize,
 >(
     lanes: L,
-    corners: &Corners<K>,
-    lame: [&Lame; N],
+    corners: [&Corners<K>; F],
+    lame: [[&Lame; F]; N],
     positions: &[Row],
     field: &[Row],
     forces: &mut [Row],
 ) {
     let zero = lanes.splat(0.0);
-    let edges = differences::<L, D, N, K>(lanes, corners, positions);
-    let steps = differences::<L, D, N, K>(lanes, corners, field);
+    let edges = differences::<L, D, N, K, F>(lanes, corners, positions);
+    let steps = differences::<L, D, N, K, F>(lanes, corners, field);
     let mut force = [[zero; 3]; K];
-    add_cell::<L, D, K, 0>(lanes, lame[0], &edges, &steps, &mut force);
+    add_cell::<L, D, K, F, 0>(lanes, lame[0], &edges, &steps, &mut force);
     if N > 1 {
-        add_cell::<L, D, K, 1>(lanes, lame[1], &edges, &steps, &mut force);
-        add_cell::<L, D, K, 2>(lanes, lame[2], &edges, &steps, &mut force);
+        add_cell::<L, D, K, F, 1>(lanes, lame[1], &edges, &steps, &mut force);
+        add_cell::<L, D, K, F, 2>(lanes, lame[2], &edges, &steps, &mut force);
     }
     let mut origin = [zero; 3];
     for v in 0..N + D {
@@ -63,22 +64,22 @@ pub(super) fn add_forces<
             for i in 0..D {
                 origin[i] = lanes.sub(origin[i], force[v][i]);
             }
-            scatter::<L, LIVE>(lanes, &corners[v], force[v], forces);
+            scatter::<L, K, LIVE, F>(lanes, corners, v, force[v], forces);
         }
     }
-    scatter::<L, LIVE>(lanes, &corners[ORIGIN], origin, forces);
+    scatter::<L, K, LIVE, F>(lanes, corners, ORIGIN, origin, forces);
 }
 
 /// Adds the forces of the cells `CELL` of four chains to those at their vertices but the origin.
 #[inline(always)]
-fn add_cell<L: Lanes, const D: usize, const K: usize, const CELL: usize>(
+fn add_cell<L: Lanes<F>, const D: usize, const K: usize, const F: usize, const CELL: usize>(
     lanes: L,
-    lame: &Lame,
-    edges: &[[L::Four; 3]; K],
-    steps: &[[L::Four; 3]; K],
-    force: &mut [[L::Four; 3]; K],
+    lame: [&Lame; F],
+    edges: &[[L::Number; 3]; K],
+    steps: &[[L::Number; 3]; K],
+    force: &mut [[L::Number; 3]; K],
 ) {
-    let (cofactors, weight) = geometry::<L, D, K, CELL>(lanes, edges);
+    let (cofactors, weight) = geometry::<L, D, K, F, CELL>(lanes, edges);
     let mut h = [[lanes.splat(0.0); 3]; 3];
     for i in 0..D {
         for j in 0..D {
@@ -88,7 +89,7 @@ fn add_cell<L: Lanes, const D: usize, const K: usize, const CELL: usize>(
             }
         }
     }
-    let stress = stress::<L, D>(lanes, lame, weight, &h);
+    let stress = stress::<L, D, F>(lanes, lame, weight, &h);
     for k in 0..D {
         let force = &mut force[vertex(CELL, k)];
         // The last vertex of each cell is new.
@@ -107,16 +108,16 @@ fn add_cell<L: Lanes, const D: usize, const K: usize, const CELL: usize>(
 
 /// The differences of the vectors at the vertices of chains from that at the origin.
 #[inline(always)]
-fn differences<L: Lanes, const D: usize, const N: usize, const K: usize>(
+fn differences<L: Lanes<F>, const D: usize, const N: usize, const K: usize, const F: usize>(
     lanes: L,
-    corners: &Corners<K>,
+    corners: [&Corners<K>; F],
     rows: &[Row],
-) -> [[L::Four; 3]; K] {
-    let origin = at(lanes, &corners[ORIGIN], rows);
+) -> [[L::Number; 3]; K] {
+    let origin = at(lanes, corners, ORIGIN, rows);
     let mut differences = [origin; K];
     for v in 0..N + D {
         if v != ORIGIN {
-            let end = at(lanes, &corners[v], rows);
+            let end = at(lanes, corners, v, rows);
             for i in 0..D {
                 differences[v][i] = lanes.sub(end[i], origin[i]);
             }
@@ -127,21 +128,27 @@ fn differences<L: Lanes, const D: usize, const N: usize, const K: usize>(
 
 /// The vectors at one vertex of each chain, by components.
 #[inline(always)]
-fn at<L: Lanes>(lanes: L, corner: &[u16; 4], rows: &[Row]) -> [L::Four; 3] {
-    lanes.columns([
-        &rows[usize::from(corner[0])],
-        &rows[usize::from(corner[1])],
-        &rows[usize::from(corner[2])],
-        &rows[usize::from(corner[3])],
-    ])
+fn at<L: Lanes<F>, const K: usize, const F: usize>(
+    lanes: L,
+    corners: [&Corners<K>; F],
+    v: usize,
+    rows: &[Row],
+) -> [L::Number; 3] {
+    let mut all = [[&rows[0]; 4]; F];
+    for f in 0..F {
+        for l in 0..4 {
+            all[f][l] = &rows[usize::from(corners[f][v][l])];
+        }
+    }
+    lanes.columns(all)
 }
 
 /// The cofactors of the edges of a cell, and `1/(D! |det J|)`.
 #[inline(always)]
-fn geometry<L: Lanes, const D: usize, const K: usize, const CELL: usize>(
+fn geometry<L: Lanes<F>, const D: usize, const K: usize, const F: usize, const CELL: usize>(
     lanes: L,
-    edges: &[[L::Four; 3]; K],
-) -> ([[L::Four; 3]; 3], L::Four) {
+    edges: &[[L::Number; 3]; K],
+) -> ([[L::Number; 3]; 3], L::Number) {
     let zero = lanes.splat(0.0);
     let mut cofactors = [[zero; 3]; 3];
     if D == 2 {
@@ -170,18 +177,18 @@ fn geometry<L: Lanes, const D: usize, const K: usize, const CELL: usize>(
 
 /// `w (lambda tr H I + mu (H + H^T))`.
 #[inline(always)]
-fn stress<L: Lanes, const D: usize>(
+fn stress<L: Lanes<F>, const D: usize, const F: usize>(
     lanes: L,
-    lame: &Lame,
-    weight: L::Four,
-    h: &[[L::Four; 3]; 3],
-) -> [[L::Four; 3]; 3] {
+    lame: [&Lame; F],
+    weight: L::Number,
+    h: &[[L::Number; 3]; 3],
+) -> [[L::Number; 3]; 3] {
     let mut trace = h[0][0];
     for i in 1..D {
         trace = lanes.add(trace, h[i][i]);
     }
-    let lambda = lanes.mul(lanes.load(&lame[0]), weight);
-    let mu = lanes.mul(lanes.load(&lame[1]), weight);
+    let lambda = lanes.mul(lanes.load(lame.map(|lame| &lame[0])), weight);
+    let mu = lanes.mul(lanes.load(lame.map(|lame| &lame[1])), weight);
     let pressure = lanes.mul(lambda, trace);
     let mut stress = *h;
     for i in 0..D {
@@ -196,14 +203,17 @@ fn stress<L: Lanes, const D: usize>(
 
 /// Adds vectors to those at one vertex of each chain.
 #[inline(always)]
-fn scatter<L: Lanes, const LIVE: usize>(
+fn scatter<L: Lanes<F>, const K: usize, const LIVE: usize, const F: usize>(
     lanes: L,
-    corners: &[u16; 4],
-    columns: [L::Four; 3],
+    corners: [&Corners<K>; F],
+    v: usize,
+    columns: [L::Number; 3],
     rows: &mut [Row],
 ) {
     let vectors = lanes.rows(columns);
-    for l in 0..LIVE {
-        lanes.add_to(&mut rows[usize::from(corners[l])], vectors[l]);
+    for f in 0..F {
+        for l in 0..LIVE {
+            lanes.add_to(&mut rows[usize::from(corners[f][v][l])], vectors[f][l]);
+        }
     }
 }

@@ -27,35 +27,35 @@ pub(super) fn numbers(row: Row) -> Numbers {
     pulp::cast(row)
 }
 
-/// Registers of four numbers.
-pub(super) trait Lanes: Copy {
+/// Registers of `F` times four numbers.
+pub(super) trait Lanes<const F: usize>: Copy {
     /// One number per cell.
-    type Four: Copy;
+    type Number: Copy;
 
     /// A number for all cells.
-    fn splat(self, x: f64) -> Self::Four;
-    /// The numbers of an array.
-    fn load(self, x: &Row) -> Self::Four;
+    fn splat(self, x: f64) -> Self::Number;
+    /// The numbers of rows.
+    fn load(self, x: [&Row; F]) -> Self::Number;
     /// `a + b`.
-    fn add(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    fn add(self, a: Self::Number, b: Self::Number) -> Self::Number;
     /// `a - b`.
-    fn sub(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    fn sub(self, a: Self::Number, b: Self::Number) -> Self::Number;
     /// `a b`.
-    fn mul(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    fn mul(self, a: Self::Number, b: Self::Number) -> Self::Number;
     /// `a b + c`.
-    fn mul_add(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
+    fn mul_add(self, a: Self::Number, b: Self::Number, c: Self::Number) -> Self::Number;
     /// `a b - c`.
-    fn mul_sub(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
+    fn mul_sub(self, a: Self::Number, b: Self::Number, c: Self::Number) -> Self::Number;
     /// `a / b`.
-    fn div(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    fn div(self, a: Self::Number, b: Self::Number) -> Self::Number;
     /// `|a|`.
-    fn abs(self, a: Self::Four) -> Self::Four;
-    /// The first three columns of four rows.
-    fn columns(self, rows: [&Row; 4]) -> [Self::Four; 3];
+    fn abs(self, a: Self::Number) -> Self::Number;
+    /// The first three columns of rows.
+    fn columns(self, rows: [[&Row; 4]; F]) -> [Self::Number; 3];
     /// The rows of three columns, and zero behind them.
-    fn rows(self, columns: [Self::Four; 3]) -> [Self::Four; 4];
-    /// `row += four`.
-    fn add_to(self, row: &mut Row, four: Self::Four);
+    fn rows(self, columns: [Self::Number; 3]) -> [[Row; 4]; F];
+    /// `sum += row`.
+    fn add_to(self, sum: &mut Row, row: Row);
 }
 
 /// Arrays, on any processor. Nothing is fused.
@@ -67,8 +67,8 @@ fn each(f: impl Fn(usize) -> f64) -> Numbers {
     [f(0), f(1), f(2), f(3)]
 }
 
-impl Lanes for Arrays {
-    type Four = Numbers;
+impl Lanes<1> for Arrays {
+    type Number = Numbers;
 
     #[inline(always)]
     fn splat(self, x: f64) -> Numbers {
@@ -76,7 +76,7 @@ impl Lanes for Arrays {
     }
 
     #[inline(always)]
-    fn load(self, x: &Row) -> Numbers {
+    fn load(self, [x]: [&Row; 1]) -> Numbers {
         numbers(*x)
     }
 
@@ -116,25 +116,25 @@ impl Lanes for Arrays {
     }
 
     #[inline(always)]
-    fn columns(self, rows: [&Row; 4]) -> [Numbers; 3] {
+    fn columns(self, [rows]: [[&Row; 4]; 1]) -> [Numbers; 3] {
         let rows = rows.map(|row| numbers(*row));
         [0, 1, 2].map(|c| each(|l| rows[l][c]))
     }
 
     #[inline(always)]
-    fn rows(self, columns: [Numbers; 3]) -> [Numbers; 4] {
-        [0, 1, 2, 3].map(|l| [columns[0][l], columns[1][l], columns[2][l], 0.0])
+    fn rows(self, columns: [Numbers; 3]) -> [[Row; 4]; 1] {
+        [[0, 1, 2, 3].map(|l| row([columns[0][l], columns[1][l], columns[2][l], 0.0]))]
     }
 
     #[inline(always)]
-    fn add_to(self, sum: &mut Row, four: Numbers) {
-        *sum = row(self.add(numbers(*sum), four));
+    fn add_to(self, sum: &mut Row, added: Row) {
+        *sum = row(self.add(numbers(*sum), numbers(added)));
     }
 }
 
 #[cfg(target_arch = "x86_64")]
-impl Lanes for V3 {
-    type Four = __m256d;
+impl Lanes<1> for V3 {
+    type Number = __m256d;
 
     #[inline(always)]
     fn splat(self, x: f64) -> __m256d {
@@ -142,7 +142,7 @@ impl Lanes for V3 {
     }
 
     #[inline(always)]
-    fn load(self, x: &Row) -> __m256d {
+    fn load(self, [x]: [&Row; 1]) -> __m256d {
         *x
     }
 
@@ -182,9 +182,8 @@ impl Lanes for V3 {
     }
 
     #[inline(always)]
-    fn columns(self, rows: [&Row; 4]) -> [__m256d; 3] {
-        let (a, b) = (self.load(rows[0]), self.load(rows[1]));
-        let (c, d) = (self.load(rows[2]), self.load(rows[3]));
+    fn columns(self, [[a, b, c, d]]: [[&Row; 4]; 1]) -> [__m256d; 3] {
+        let (a, b, c, d) = (*a, *b, *c, *d);
         let avx = self.avx;
         let (ab, cd) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpacklo_pd(c, d));
         let (ab_1, cd_1) = (avx._mm256_unpackhi_pd(a, b), avx._mm256_unpackhi_pd(c, d));
@@ -196,23 +195,23 @@ impl Lanes for V3 {
     }
 
     #[inline(always)]
-    fn rows(self, [x, y, z]: [__m256d; 3]) -> [__m256d; 4] {
+    fn rows(self, [x, y, z]: [__m256d; 3]) -> [[Row; 4]; 1] {
         let (avx, zero) = (self.avx, self.splat(0.0));
         let (a, b) = (avx._mm256_unpacklo_pd(x, y), avx._mm256_unpackhi_pd(x, y));
         let (c, d) = (
             avx._mm256_unpacklo_pd(z, zero),
             avx._mm256_unpackhi_pd(z, zero),
         );
-        [
+        [[
             avx._mm256_permute2f128_pd::<0x20>(a, c),
             avx._mm256_permute2f128_pd::<0x20>(b, d),
             avx._mm256_permute2f128_pd::<0x31>(a, c),
             avx._mm256_permute2f128_pd::<0x31>(b, d),
-        ]
+        ]]
     }
 
     #[inline(always)]
-    fn add_to(self, row: &mut Row, four: __m256d) {
-        *row = self.add(*row, four);
+    fn add_to(self, sum: &mut Row, row: Row) {
+        *sum = self.add(*sum, row);
     }
 }

@@ -3,6 +3,8 @@
 mod at_vertex;
 mod chains;
 mod copies;
+#[cfg(target_arch = "x86_64")]
+mod eight;
 mod groups;
 mod kernel;
 mod lame;

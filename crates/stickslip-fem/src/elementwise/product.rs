@@ -2,13 +2,15 @@
 
 use std::cell::RefCell;
 
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Level, prelude::*};
 use nalgebra::SVector;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use stickslip_core::compiled;
 
 use super::ElementStiffness;
 use super::chains::CHAIN;
-use super::kernel::add_forces;
+use super::kernel::{Corners, Lame, add_forces};
 use super::lanes::{Arrays, Lanes, Row, row};
 
 /// Vertices of a part of the sums: enough work for a thread.
@@ -124,47 +126,87 @@ fn forces_of<const D: usize>(
         let work = Group {
             stiffness,
             group,
+            positions: &groups.positions[groups.starts[group]..groups.starts[group + 1]],
             field,
             forces,
         };
         #[cfg(target_arch = "x86_64")]
-        if let Some(simd) = pulp::x86::V3::try_new() {
-            return simd.vectorize(Wide { simd, work });
+        if let Some(four) = pulp::x86::V3::try_new() {
+            if let Some(eight) = Level::new().as_avx512() {
+                return eight.vectorize(
+                    #[inline(always)]
+                    || work.run_wide(eight, four),
+                );
+            }
+            return four.vectorize(Wide { simd: four, work });
         }
-        work.run(Arrays);
+        work.run(Arrays, 0);
     });
 }
 
 struct Group<'a, const D: usize> {
     stiffness: &'a ElementStiffness<D>,
     group: usize,
+    positions: &'a [Row],
     field: &'a [Row],
     forces: &'a mut [Row],
 }
 
-impl<const D: usize> Group<'_, D> {
+impl<'a, const D: usize> Group<'a, D> {
+    /// Eight chains at a time, and then four.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
+    fn run_wide<E: Lanes<2>, L: Lanes<1>>(mut self, eight: E, four: L) {
         let groups = &self.stiffness.elements.groups;
-        let (begin, end) = (groups.starts[self.group], groups.starts[self.group + 1]);
-        let positions = &groups.positions[begin..end];
-        let lame = |row: usize| self.stiffness.lame.of_row(row);
+        let [rows, _] = groups.rows_of(self.group);
+        let (pairs, _) = groups.chains_of(self.group).as_chunks::<2>();
+        for ([a, b], row) in pairs.iter().zip(rows.step_by(2 * CHAIN)) {
+            let lame = |k: usize| [self.lame(row + k), self.lame(row + CHAIN + k)];
+            let lame = [lame(0), lame(1), lame(2)];
+            self.add::<E, CHAIN, 6, 4, 2>(eight, [a, b], lame);
+        }
+        self.run(four, 2 * pairs.len());
+    }
+
+    /// Four chains or cells at a time, without the first chains.
+    #[inline(always)]
+    fn run<L: Lanes<1>>(mut self, lanes: L, done: usize) {
+        let groups = &self.stiffness.elements.groups;
         let [chained, others] = groups.rows_of(self.group);
-        let chains = &groups.chains[groups.chained[self.group]..groups.chained[self.group + 1]];
-        let Self { field, forces, .. } = self;
-        for (corners, row) in chains.iter().zip(chained.step_by(CHAIN)) {
-            let lame = [lame(row), lame(row + 1), lame(row + 2)];
-            add_forces::<L, D, CHAIN, 6, 4>(lanes, corners, lame, positions, field, forces);
+        let chains = groups
+            .chains_of(self.group)
+            .iter()
+            .zip(chained.step_by(CHAIN));
+        for (corners, row) in chains.skip(done) {
+            let lame = [[self.lame(row)], [self.lame(row + 1)], [self.lame(row + 2)]];
+            self.add::<L, CHAIN, 6, 4, 1>(lanes, [corners], lame);
         }
         for (corners, row) in groups.singles_of(self.group).iter().zip(others) {
-            let lame = [lame(row)];
+            let (corners, lame) = ([corners], [[self.lame(row)]]);
             match groups.live(self.group, row) {
-                1 => add_forces::<L, D, 1, 4, 1>(lanes, corners, lame, positions, field, forces),
-                2 => add_forces::<L, D, 1, 4, 2>(lanes, corners, lame, positions, field, forces),
-                3 => add_forces::<L, D, 1, 4, 3>(lanes, corners, lame, positions, field, forces),
-                _ => add_forces::<L, D, 1, 4, 4>(lanes, corners, lame, positions, field, forces),
+                1 => self.add::<L, 1, 4, 1, 1>(lanes, corners, lame),
+                2 => self.add::<L, 1, 4, 2, 1>(lanes, corners, lame),
+                3 => self.add::<L, 1, 4, 3, 1>(lanes, corners, lame),
+                _ => self.add::<L, 1, 4, 4, 1>(lanes, corners, lame),
             }
         }
+    }
+
+    /// Lamé's parameters of a row of cells.
+    #[inline(always)]
+    fn lame(&self, row: usize) -> &'a Lame {
+        self.stiffness.lame.of_row(row)
+    }
+
+    #[inline(always)]
+    fn add<L: Lanes<F>, const N: usize, const K: usize, const LIVE: usize, const F: usize>(
+        &mut self,
+        lanes: L,
+        corners: [&Corners<K>; F],
+        lame: [[&Lame; F]; N],
+    ) {
+        let (positions, field) = (self.positions, self.field);
+        add_forces::<L, D, N, K, LIVE, F>(lanes, corners, lame, positions, field, self.forces);
     }
 }
 
@@ -181,7 +223,7 @@ impl<const D: usize> pulp::NullaryFnOnce for Wide<'_, D> {
 
     #[inline(always)]
     fn call(self) {
-        self.work.run(self.simd);
+        self.work.run(self.simd, 0);
     }
 }
 
