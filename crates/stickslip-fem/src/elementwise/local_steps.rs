@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
+use stickslip_core::MOST_LEVELS;
 
 use super::product::add_product;
 use super::{ElementStiffness, Elements, Materials};
@@ -49,7 +50,7 @@ impl<const D: usize> ElementStiffness<D> {
     /// # Errors
     ///
     /// [`FemError::Mesh`] for a space or a mass of another mesh, [`FemError::OutOfRange`] for a vertex that the mesh has not, and
-    /// [`FemError::Value`] for no level or more than 16.
+    /// [`FemError::Value`] for no level or more than [`MOST_LEVELS`].
     #[doc(alias("multirate", "subcycling", "LTS"))]
     pub fn with_local_steps(
         &self,
@@ -69,10 +70,10 @@ impl<const D: usize> ElementStiffness<D> {
                 });
             }
         }
-        if !(1..=16).contains(&levels) {
+        if !(1..=MOST_LEVELS).contains(&levels) {
             return Err(FemError::Value {
                 what: "number of levels of local steps",
-                requirement: "from 1 to 16",
+                requirement: "from 1 to MOST_LEVELS",
                 value: levels as f64,
                 cell: None,
             });
