@@ -5,7 +5,7 @@
 //! hundred thousand lines of machine code, at the optimisation level of the program. [`compiled!`] declares functions
 //! whose bodies stand in the declaring crate, one for each number; a call chooses among them.
 //!
-//! [`lanes`] has passes over many numbers, several of them per instruction.
+//! [`lanes`] has passes over many numbers, several of them per instruction. [`MOST_LEVELS`] bounds the levels of local steps.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -17,6 +17,13 @@ struct Readme;
 pub mod lanes;
 
 use std::any::Any;
+
+/// The most levels of local steps of a stiffness; cells of level `l` act every `2^l`-th step.
+///
+/// The weights of the levels in a step stand in an array of this length: no step allocates memory for them. A force of a level
+/// beyond it would be lost, so a scene refuses a matrix of more levels. The slowest cells of 16 levels act every 32 768-th step,
+/// which is a ratio of edges that no mesh has.
+pub const MOST_LEVELS: usize = 16;
 
 /// Declares functions of a number `C`, which are compiled where they are declared, for 1, 2 and 3, or those named: `C in
 /// 2, 3`.

@@ -141,6 +141,7 @@ mod weights;
 
 pub use nalgebra;
 pub use sprs;
+pub use stickslip_core::MOST_LEVELS;
 
 /// The cosine of 30 degrees: normals that differ by less are those of one smooth surface.
 pub const SMOOTH: f64 = 0.866_025_403_784_438_6;

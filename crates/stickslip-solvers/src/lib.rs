@@ -150,6 +150,7 @@ mod walls;
 pub use nalgebra;
 #[cfg(feature = "sparse")]
 pub use sprs;
+pub use stickslip_core::MOST_LEVELS;
 
 pub use basis::Basis;
 #[cfg(feature = "sparse")]

@@ -50,7 +50,7 @@ pub trait Matrix<const C: usize>: Any + Send + Sync {
         }
     }
 
-    /// The number of levels of local steps in which parts of `A` act, at most 16: 1, as by default, without.
+    /// The number of levels of local steps in which parts of `A` act, at most [`MOST_LEVELS`](crate::MOST_LEVELS): 1, as by default, without.
     fn levels(&self) -> usize {
         1
     }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Parser, value_parser};
+use stickslip::solvers::MOST_LEVELS;
 
 use super::Benchmark;
 use crate::checkpoints::{Checkpoints, Tags};
@@ -33,7 +34,7 @@ pub struct Arguments {
     #[arg(long, value_name = "SHARE", value_parser = non_negative)]
     pub damping: Option<f64>,
     /// Levels of local steps: cells whose vertices vibrate 2^l times slower than the fastest act every 2^l-th step; 1 for none
-    #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = value_parser!(u8).range(1..=16))]
+    #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = value_parser!(u8).range(1..=MOST_LEVELS as i64))]
     pub levels: u8,
     /// The end of the run [s]
     #[arg(long, value_name = "TIME", default_value_t = 12.0, value_parser = positive)]

@@ -1,5 +1,7 @@
 //! The stiffness by elements beside the matrix that it stands for.
 
+use std::collections::BTreeSet;
+
 use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_fem::{
@@ -233,12 +235,24 @@ fn bits_are_those_of_one_thread() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The levels of local steps add up to the stiffness, and a vertex of cells of level `l` is `2^l` times slower than the fastest.
+/// The vertices of the cells of each vertex.
+fn around<const D: usize>(space: &P1<D>) -> Vec<BTreeSet<usize>> {
+    let mut around = vec![BTreeSet::new(); space.vertex_count()];
+    for cell in space.mesh().cells() {
+        for &p in cell {
+            around[p as usize].extend(cell.iter().map(|&q| q as usize));
+        }
+    }
+    around
+}
+
+/// The levels of local steps add up to the stiffness, and the vertices within two rings of cells around a vertex of cells of level
+/// `l` are `2^l` times slower than the fastest; returns the number of levels.
 fn has_levels<const D: usize>(
     space: &P1<D>,
     random: &[f64],
     levels: usize,
-) -> Result<(), TestCaseError> {
+) -> Result<usize, TestCaseError> {
     let whole = element_stiffness_by_cell(space, |_, cell| rock(random, cell)).expect("rock");
     let mass = lumped_mass::<D, D>(space, 2.0).expect("a mass");
     let count = space.vertex_count();
@@ -250,10 +264,13 @@ fn has_levels<const D: usize>(
         .map(|i| whole.diagonal_block(i).diagonal().max() / mass.data()[i][(0, 0)])
         .collect();
     let highest = squares.iter().copied().fold(0.0, f64::max);
-    for (i, square) in squares.iter().enumerate() {
+    let around = around(space);
+    for i in 0..count {
         let interval = f64::from(1 << own.level_at(i));
-        prop_assert!(interval.powi(2) * square <= highest * (1.0 + 1e-8));
-        prop_assert!(interval == 1.0 || !finest.contains(&i));
+        for &j in around[i].iter().flat_map(|&k| &around[k]) {
+            prop_assert!(interval.powi(2) * squares[j] <= highest * (1.0 + 1e-8));
+            prop_assert!(interval == 1.0 || j != finest[0] && j != finest[1]);
+        }
     }
     prop_assert!(own.levels() <= levels);
     let cells: usize = own.cells_of_levels().iter().sum();
@@ -287,7 +304,9 @@ fn has_levels<const D: usize>(
     for (found, expected) in found.iter().zip(&expected) {
         prop_assert!((found - expected).amax() <= 4.0 * ROUNDING * largest);
     }
-    is_same(&own.into_operator(), &matrix, &x)
+    let count = own.levels();
+    is_same(&own.into_operator(), &matrix, &x)?;
+    Ok(count)
 }
 
 proptest! {
@@ -301,5 +320,19 @@ proptest! {
         random in numbers(), cells in [2_usize..5, 2_usize..5, 2_usize..5], levels in 1_usize..6,
     ) {
         has_levels(&space(cells, &random), &random, levels)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn levels_add_up_in_graded_bodies(
+        random in numbers(), finest in [0.0..12.0_f64, 0.0..12.0_f64], levels in 2_usize..6,
+    ) {
+        let grid = P1::<2>::grid([12.0; 2], [12; 2]).expect("a grid");
+        let edge = |x: &SVector<f64, 2>| 0.0625 + 0.3 * (x - SVector::from(finest)).norm();
+        let space = grid.graded(edge).expect("graded");
+        prop_assert!(has_levels(&space, &random, levels)? > 1);
     }
 }

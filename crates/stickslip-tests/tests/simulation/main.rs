@@ -30,6 +30,7 @@ mod globs;
 mod invariance;
 mod lagged_viscosity;
 mod layer;
+mod levels_of_ones_own;
 mod local_steps;
 mod monolithic;
 mod options;

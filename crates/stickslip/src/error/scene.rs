@@ -1,7 +1,7 @@
 //! Errors in the construction of a scene.
 
 use stickslip_friction::FrictionViolation;
-use stickslip_solvers::{MatrixDefect, MeshMismatch, SolveError};
+use stickslip_solvers::{MOST_LEVELS, MatrixDefect, MeshMismatch, SolveError};
 use stickslip_state::{Number, StateLawViolation};
 use stickslip_time::TimeError;
 use thiserror::Error;
@@ -198,6 +198,14 @@ pub enum SceneError {
         vertex: usize,
         /// The highest level of its cells.
         level: usize,
+    },
+    /// A stiffness or a viscosity has no level of local steps, or more than [`MOST_LEVELS`].
+    #[error("the {what} has {levels} levels of local steps: from 1 to {MOST_LEVELS} are possible")]
+    Levels {
+        /// The name of the operator.
+        what: &'static str,
+        /// The number of its levels.
+        levels: usize,
     },
     /// An operator format has no local axes, or no jumps: [`Operator::change_basis`](crate::Operator::change_basis).
     #[error("the format of the {what} has no local axes and jumps: {}", hint::AXES)]

@@ -24,8 +24,10 @@ use change_basis::change_basis;
 use equilibrium::equilibrium;
 use start::balance_rates;
 
+use std::iter::once;
+
 use nalgebra::SVector;
-use stickslip_solvers::{Basis, Matrix};
+use stickslip_solvers::{Basis, MOST_LEVELS};
 
 use crate::body::Matrices;
 use crate::contact::ContactSet;
@@ -88,7 +90,7 @@ impl<const C: usize> Placement<C> {
         let given = std::mem::take(&mut scene.contacts);
         let mut contacts = contacts::place(given, &axes, &mut constraints)?;
         constraints.finish();
-        check_local_steps(matrices.stiffness(), &contacts, &scene.initial.acceleration)?;
+        check_local_steps(matrices, &contacts, &scene.initial.acceleration)?;
         let loads = Loads::new(std::mem::take(&mut scene.loads), &basis);
         let time = scene.initial.time;
         if scene.clamping.is_some() && ranks.any(!basis.is_empty()) {
@@ -159,12 +161,21 @@ impl<const C: usize> Placement<C> {
     }
 }
 
-/// Refuses contacts at cells that do not act in every step, and accelerations of a start whose forces do not act alike.
+/// Refuses numbers of levels out of their range, contacts at cells that do not act in every step, and accelerations of a start whose forces do not act alike.
 fn check_local_steps<const C: usize>(
-    stiffness: &dyn Matrix<C>,
+    matrices: &dyn Matrices<C>,
     contacts: &ContactSet<C>,
     acceleration: &[SVector<f64, C>],
 ) -> Result<(), SceneError> {
+    let stiffness = matrices.stiffness();
+    let viscosities = (0..).map_while(|number| matrices.viscosity_at(number));
+    let viscosities = viscosities.map(|viscosity| ("viscosity", viscosity));
+    for (what, matrix) in once(("stiffness", stiffness)).chain(viscosities) {
+        let levels = matrix.levels();
+        if !(1..=MOST_LEVELS).contains(&levels) {
+            return Err(SceneError::Levels { what, levels });
+        }
+    }
     if stiffness.levels() == 1 {
         return Ok(());
     }

@@ -1,12 +1,9 @@
 //! Local steps of parts of a stiffness in levels: those of level `l` act every `2^l`-th step, `2^l` times as much.
 
-use stickslip_solvers::Matrix;
+use stickslip_solvers::{MOST_LEVELS, Matrix};
 
 use crate::numerics::NUMERICS;
 use crate::{StepError, StepState};
-
-/// The most levels that a stiffness has.
-const MOST: usize = 16;
 
 /// The number of steps between two actions of a level.
 pub(super) fn interval(level: usize) -> usize {
@@ -14,7 +11,7 @@ pub(super) fn interval(level: usize) -> usize {
 }
 
 /// The weights of levels in the forces after so many steps; 1 alone for a stiffness without levels.
-pub(crate) fn weights_after(steps: usize) -> [f64; MOST] {
+pub(crate) fn weights_after(steps: usize) -> [f64; MOST_LEVELS] {
     std::array::from_fn(|level| {
         let interval = interval(level);
         if steps.is_multiple_of(interval) {
@@ -26,7 +23,7 @@ pub(crate) fn weights_after(steps: usize) -> [f64; MOST] {
 }
 
 /// The weight 1 of a level and all above.
-pub(super) fn weights_from(level: usize) -> [f64; MOST] {
+pub(super) fn weights_from(level: usize) -> [f64; MOST_LEVELS] {
     std::array::from_fn(|l| if l >= level { 1.0 } else { 0.0 })
 }
 
