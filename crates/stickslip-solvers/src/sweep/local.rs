@@ -3,10 +3,10 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{Inverses, Sweep};
-use crate::block::decouple;
+use crate::block::{decouple, solve};
 use crate::block_matrix::{Rows, row_product_behind};
 use crate::field::clear_masked;
-use crate::{BlockMatrix, Energy, Matrix};
+use crate::{BlockMatrix, Energy};
 
 impl<const C: usize> Sweep<C> {
     /// The minimiser over vertex `i` alone, with its position among the frictional ones; `v` begins at vertex `first`.
@@ -25,11 +25,31 @@ impl<const C: usize> Sweep<C> {
                 let rest = energy.load[i] - row_product_behind(rows, i, first, v);
                 let step = match inverses {
                     Some(inverses) => inverses[i] * rest,
-                    None => balanced(energy, i, &rest),
+                    None => self.balanced(rows, &energy.fixed[i], i, rest),
                 };
                 v[i - first] + step
             }
         }
+    }
+
+    /// The step of a vertex without friction that balances a force.
+    #[inline(always)]
+    fn balanced(
+        &self,
+        rows: &Rows<'_, SMatrix<f64, C, C>>,
+        fixed: &[bool; C],
+        i: usize,
+        mut force: SVector<f64, C>,
+    ) -> SVector<f64, C> {
+        // Preparation has checked that there is a diagonal block, and that it is positive definite.
+        let block = &rows.values[self.behind[i] as usize - 1];
+        let step = if *fixed == [false; C] {
+            solve(block, &force)
+        } else {
+            clear_masked(&mut force, fixed);
+            solve(&decouple(block, fixed), &force)
+        };
+        step.unwrap_or_else(SVector::zeros)
     }
 
     /// The minimiser over the frictional vertex number `position` alone; `v` begins at vertex `first`.
@@ -88,22 +108,4 @@ impl<const C: usize> Sweep<C> {
         let rows = Rows::of(energy.operator);
         self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]]
     }
-}
-
-/// The step of a vertex without friction that balances a force.
-#[inline]
-fn balanced<const C: usize>(
-    energy: &Energy<'_, BlockMatrix<C>, C>,
-    i: usize,
-    force: &SVector<f64, C>,
-) -> SVector<f64, C> {
-    let fixed = &energy.fixed[i];
-    let mut step = *force;
-    clear_masked(&mut step, fixed);
-    // Preparation has checked that the block is positive definite.
-    match decouple(&energy.operator.diagonal_block(i), fixed).cholesky() {
-        Some(factor) => factor.solve_mut(&mut step),
-        None => step = SVector::zeros(),
-    }
-    step
 }
