@@ -71,23 +71,26 @@ impl Copies {
         self.groups.starts.len() - 1
     }
 
-    /// The sum over the copies of a vertex among some of all, in their order; `rows` are four numbers each of these.
+    /// The sum over the copies of a vertex among some of all, in their order, and none without a copy; `rows` are four numbers
+    /// each of these.
     #[inline(always)]
     pub(super) fn sum<const D: usize>(
         &self,
         vertex: usize,
         some: &Range<usize>,
         rows: &[f64],
-    ) -> [f64; D] {
-        let mut sum = [0.0; D];
+    ) -> Option<[f64; D]> {
         let places = self.groups.at(vertex).iter().map(|&place| place as usize);
-        for place in places.filter(|place| some.contains(place)) {
+        let mut places = places.filter(|place| some.contains(place)).peekable();
+        places.peek()?;
+        let mut sum = [0.0; D];
+        for place in places {
             let row = &rows[4 * (place - some.start)..][..D];
             for c in 0..D {
                 sum[c] += row[c];
             }
         }
-        sum
+        Some(sum)
     }
 
     /// The cells of a vertex: the number of the row, and of the cell in it.

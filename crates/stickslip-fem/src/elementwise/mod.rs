@@ -5,6 +5,7 @@ mod chains;
 mod copies;
 #[cfg(target_arch = "x86_64")]
 mod eight;
+mod group_forces;
 mod groups;
 mod kernel;
 mod lame;
@@ -37,8 +38,9 @@ use product::add_product;
 ///
 /// and adds the forces `f_p` \[N\] at its corners, with the volume `V` and the gradients `g_p` found anew. It is that of
 /// the matrix of [`elasticity`](crate::elasticity), up to rounding. In space it takes 0.25 kB a vertex in place of the
-/// 1.1 kB of a matrix. Cells are computed four at a time in groups that fit into the cache; with the feature `rayon` groups
-/// share the threads. Bits do not depend on the number of threads.
+/// 1.1 kB of a matrix. Chains of three neighbouring cells are computed at once, four or eight chains at a time, in groups that
+/// fit into the cache; with the feature `rayon` groups share the threads. Bits do not depend on the number of
+/// threads; the last digits depend on the registers of the processor.
 ///
 /// A multiple shares the memory of the cells: `&stiffness * eta` is the Kelvin-Voigt viscosity of the relaxation time
 /// `eta` \[s\].

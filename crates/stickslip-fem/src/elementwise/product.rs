@@ -1,25 +1,15 @@
 //! The product with a field: group by group, then vertex by vertex.
 
-use std::cell::RefCell;
-
-#[cfg(target_arch = "x86_64")]
-use fearless_simd::{Level, prelude::*};
 use nalgebra::SVector;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use stickslip_core::compiled;
 
 use super::ElementStiffness;
-use super::chains::CHAIN;
-use super::kernel::{Corners, Lame, add_forces};
-use super::lanes::{Arrays, Lanes, Row, row};
+use super::group_forces::forces_of;
+use super::lanes::{Row, row};
 
 /// Vertices of a part of the sums: enough work for a thread.
 const PART: usize = 8192;
-
-thread_local! {
-    /// The field at the vertices of a group.
-    static FIELD: RefCell<Vec<Row>> = const { RefCell::new(Vec::new()) };
-}
 
 compiled! {
     /// `y += scale A x`; with weights, the sum over levels of local steps of the weight times their part.
@@ -47,9 +37,11 @@ compiled! {
         let (forces, scale): (&[f64], f64) = (cast_slice(forces), scale * stiffness.factor);
         for_vertices(0, y, &|first, y| {
             for (i, y) in (first..).zip(y) {
-                let sum = elements.copies.sum::<D>(i, &places, forces);
-                for c in 0..D {
-                    y[c] += scale * sum[c];
+                // In a step without its cells the vertex is not touched.
+                if let Some(sum) = elements.copies.sum::<D>(i, &places, forces) {
+                    for c in 0..D {
+                        y[c] += scale * sum[c];
+                    }
                 }
             }
         });
@@ -103,128 +95,6 @@ fn for_vertices<const D: usize>(
         || for_vertices(first, before, work),
         || for_vertices(first + half, behind, work),
     );
-}
-
-/// The forces of one group.
-fn forces_of<const D: usize>(
-    stiffness: &ElementStiffness<D>,
-    group: usize,
-    x: &[SVector<f64, D>],
-    forces: &mut [Row],
-) {
-    let groups = &stiffness.elements.groups;
-    let vertices = &groups.vertices[groups.starts[group]..groups.starts[group + 1]];
-    FIELD.with_borrow_mut(|field| {
-        field.resize(vertices.len(), row([0.0; 4]));
-        // Number by number: rows would go through memory first.
-        let numbers: &mut [f64] = cast_slice_mut(field);
-        for (own, &p) in numbers.chunks_exact_mut(4).zip(vertices) {
-            own[..D].copy_from_slice(x[p as usize].as_slice());
-            own[D..].fill(0.0);
-        }
-        forces.fill(row([0.0; 4]));
-        let work = Group {
-            stiffness,
-            group,
-            positions: &groups.positions[groups.starts[group]..groups.starts[group + 1]],
-            field,
-            forces,
-        };
-        #[cfg(target_arch = "x86_64")]
-        if let Some(four) = pulp::x86::V3::try_new() {
-            if let Some(eight) = Level::new().as_avx512() {
-                return eight.vectorize(
-                    #[inline(always)]
-                    || work.run_wide(eight, four),
-                );
-            }
-            return four.vectorize(Wide { simd: four, work });
-        }
-        work.run(Arrays, 0);
-    });
-}
-
-struct Group<'a, const D: usize> {
-    stiffness: &'a ElementStiffness<D>,
-    group: usize,
-    positions: &'a [Row],
-    field: &'a [Row],
-    forces: &'a mut [Row],
-}
-
-impl<'a, const D: usize> Group<'a, D> {
-    /// Eight chains at a time, and then four.
-    #[cfg(target_arch = "x86_64")]
-    #[inline(always)]
-    fn run_wide<E: Lanes<2>, L: Lanes<1>>(mut self, eight: E, four: L) {
-        let groups = &self.stiffness.elements.groups;
-        let [rows, _] = groups.rows_of(self.group);
-        let (pairs, _) = groups.chains_of(self.group).as_chunks::<2>();
-        for ([a, b], row) in pairs.iter().zip(rows.step_by(2 * CHAIN)) {
-            let lame = |k: usize| [self.lame(row + k), self.lame(row + CHAIN + k)];
-            let lame = [lame(0), lame(1), lame(2)];
-            self.add::<E, CHAIN, 6, 4, 2>(eight, [a, b], lame);
-        }
-        self.run(four, 2 * pairs.len());
-    }
-
-    /// Four chains or cells at a time, without the first chains.
-    #[inline(always)]
-    fn run<L: Lanes<1>>(mut self, lanes: L, done: usize) {
-        let groups = &self.stiffness.elements.groups;
-        let [chained, others] = groups.rows_of(self.group);
-        let chains = groups
-            .chains_of(self.group)
-            .iter()
-            .zip(chained.step_by(CHAIN));
-        for (corners, row) in chains.skip(done) {
-            let lame = [[self.lame(row)], [self.lame(row + 1)], [self.lame(row + 2)]];
-            self.add::<L, CHAIN, 6, 4, 1>(lanes, [corners], lame);
-        }
-        for (corners, row) in groups.singles_of(self.group).iter().zip(others) {
-            let (corners, lame) = ([corners], [[self.lame(row)]]);
-            match groups.live(self.group, row) {
-                1 => self.add::<L, 1, 4, 1, 1>(lanes, corners, lame),
-                2 => self.add::<L, 1, 4, 2, 1>(lanes, corners, lame),
-                3 => self.add::<L, 1, 4, 3, 1>(lanes, corners, lame),
-                _ => self.add::<L, 1, 4, 4, 1>(lanes, corners, lame),
-            }
-        }
-    }
-
-    /// Lamé's parameters of a row of cells.
-    #[inline(always)]
-    fn lame(&self, row: usize) -> &'a Lame {
-        self.stiffness.lame.of_row(row)
-    }
-
-    #[inline(always)]
-    fn add<L: Lanes<F>, const N: usize, const K: usize, const LIVE: usize, const F: usize>(
-        &mut self,
-        lanes: L,
-        corners: [&Corners<K>; F],
-        lame: [[&Lame; F]; N],
-    ) {
-        let (positions, field) = (self.positions, self.field);
-        add_forces::<L, D, N, K, LIVE, F>(lanes, corners, lame, positions, field, self.forces);
-    }
-}
-
-/// The work in wide registers: a struct, since closures would not be compiled for them.
-#[cfg(target_arch = "x86_64")]
-struct Wide<'a, const D: usize> {
-    simd: pulp::x86::V3,
-    work: Group<'a, D>,
-}
-
-#[cfg(target_arch = "x86_64")]
-impl<const D: usize> pulp::NullaryFnOnce for Wide<'_, D> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        self.work.run(self.simd, 0);
-    }
 }
 
 /// Runs both, in parallel if there are threads.
