@@ -60,6 +60,7 @@ kernel!(
 );
 
 kernel!(
+    /// `a + b`.
     #[inline]
     fn add_rows(simd: Avx512, a: __m256d, b: __m256d) -> __m256d {
         _mm256_add_pd(a, b)

@@ -161,7 +161,8 @@ impl<const C: usize> Placement<C> {
     }
 }
 
-/// Refuses numbers of levels out of their range, contacts at cells that do not act in every step, and accelerations of a start whose forces do not act alike.
+/// Refuses numbers of levels out of their range, contacts at cells that do not act in every step, and accelerations of a
+/// start whose forces do not act alike.
 fn check_local_steps<const C: usize>(
     matrices: &dyn Matrices<C>,
     contacts: &ContactSet<C>,
