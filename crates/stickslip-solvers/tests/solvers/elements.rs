@@ -108,11 +108,45 @@ fn operators<const D: usize>(space: &P1<D>, random: &[f64]) -> (ElementOperator<
     (elements.into_operator(), matrix)
 }
 
+/// Many simplices, each cut into cells around a vertex inside: the first and the last cell of a chain share vertices, too.
+fn cut_simplices<const D: usize>(random: &[f64]) -> P1<D> {
+    let (mut vertices, mut cells) = (Vec::new(), Vec::new());
+    for k in 0..17 {
+        let begin = vertices.len() as u32;
+        let origin = SVector::<f64, D>::repeat(2.0 * k as f64);
+        let at = |c: usize| 0.1 + 0.3 * random[(D * k + c) % random.len()];
+        vertices.push(origin + SVector::from_fn(|c, _| at(c) / D as f64));
+        vertices.push(origin);
+        for c in 0..D {
+            vertices.push(origin + SVector::from_fn(|r, _| if r == c { 1.0 } else { 0.0 }));
+        }
+        for left_out in 0..=D {
+            cells.push(begin);
+            cells.extend(
+                (0..=D)
+                    .filter(|&c| c != left_out)
+                    .map(|c| begin + 1 + c as u32),
+            );
+        }
+    }
+    P1::new(Mesh::new(vertices, cells).expect("a mesh"))
+}
+
 fn numbers() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(0.0..1.0, 50..200)
 }
 
 proptest! {
+    #[test]
+    fn cells_around_a_vertex_add_up(random in numbers()) {
+        let space = cut_simplices::<2>(&random);
+        let (operator, matrix) = operators(&space, &random);
+        is_same(&operator, &matrix, &field(space.vertex_count(), &random))?;
+        let space = cut_simplices::<3>(&random);
+        let (operator, matrix) = operators(&space, &random);
+        is_same(&operator, &matrix, &field(space.vertex_count(), &random))?;
+    }
+
     #[test]
     fn products_are_those_of_the_matrix(
         random in numbers(),
