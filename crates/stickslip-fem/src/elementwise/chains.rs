@@ -118,8 +118,8 @@ fn neighbours(cells: &[Places], corners: usize) -> Vec<[u16; 4]> {
 mod tests {
     use proptest::prelude::*;
 
-    use super::*;
     use crate::P1;
+    use crate::elementwise::chains::{Chains, Places};
 
     /// Some cells of a grid, with corners as places.
     fn some<const D: usize>(cells: [usize; D], chosen: &[bool]) -> Vec<Places> {

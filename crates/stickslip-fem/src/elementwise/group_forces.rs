@@ -7,9 +7,10 @@ use fearless_simd::{Level, prelude::*};
 use nalgebra::SVector;
 use pulp::bytemuck::cast_slice_mut;
 
-use super::ElementStiffness;
 use super::chains::CHAIN;
+use super::groups::Groups;
 use super::kernel::{Corners, Lame, add_forces};
+use super::lame::Materials;
 use super::lanes::{Arrays, Lanes, Row, row};
 
 thread_local! {
@@ -19,12 +20,11 @@ thread_local! {
 
 /// The forces of a group at its vertices.
 pub(super) fn forces_of<const D: usize>(
-    stiffness: &ElementStiffness<D>,
+    (groups, lame): (&Groups, &Materials),
     group: usize,
     x: &[SVector<f64, D>],
     forces: &mut [Row],
 ) {
-    let groups = &stiffness.elements.groups;
     let vertices = &groups.vertices[groups.starts[group]..groups.starts[group + 1]];
     FIELD.with_borrow_mut(|field| {
         field.resize(vertices.len(), row([0.0; 4]));
@@ -35,8 +35,9 @@ pub(super) fn forces_of<const D: usize>(
             own[D..].fill(0.0);
         }
         forces.fill(row([0.0; 4]));
-        let work = Group {
-            stiffness,
+        let work: Group<'_, D> = Group {
+            groups,
+            lame,
             group,
             positions: &groups.positions[groups.starts[group]..groups.starts[group + 1]],
             field,
@@ -58,7 +59,8 @@ pub(super) fn forces_of<const D: usize>(
 
 /// The cells of a group, the vectors and the forces at its vertices.
 struct Group<'a, const D: usize> {
-    stiffness: &'a ElementStiffness<D>,
+    groups: &'a Groups,
+    lame: &'a Materials,
     group: usize,
     positions: &'a [Row],
     field: &'a [Row],
@@ -70,7 +72,7 @@ impl<'a, const D: usize> Group<'a, D> {
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     fn run_wide<E: Lanes<2>, L: Lanes<1>>(mut self, eight: E, four: L) {
-        let groups = &self.stiffness.elements.groups;
+        let groups = self.groups;
         let [rows, _] = groups.rows_of(self.group);
         let (pairs, _) = groups.chains_of(self.group).as_chunks::<2>();
         for ([a, b], row) in pairs.iter().zip(rows.step_by(2 * CHAIN)) {
@@ -84,7 +86,7 @@ impl<'a, const D: usize> Group<'a, D> {
     /// Four chains or cells at a time, without the first chains.
     #[inline(always)]
     fn run<L: Lanes<1>>(mut self, lanes: L, done: usize) {
-        let groups = &self.stiffness.elements.groups;
+        let groups = self.groups;
         let [chained, others] = groups.rows_of(self.group);
         let chains = groups
             .chains_of(self.group)
@@ -108,7 +110,7 @@ impl<'a, const D: usize> Group<'a, D> {
     /// Lamé's parameters of a row of cells.
     #[inline(always)]
     fn lame(&self, row: usize) -> &'a Lame {
-        self.stiffness.lame.of_row(row)
+        self.lame.of_row(row)
     }
 
     #[inline(always)]

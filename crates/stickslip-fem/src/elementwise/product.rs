@@ -63,7 +63,8 @@ fn for_groups<const D: usize>(
                 forces.fill(row([0.0; 4]));
                 continue;
             }
-            forces_of(stiffness, group, x, forces);
+            let cells = (&stiffness.elements.groups, &*stiffness.lame);
+            forces_of(cells, group, x, forces);
             if weight != 1.0 {
                 let numbers: &mut [f64] = cast_slice_mut(forces);
                 numbers.iter_mut().for_each(|number| *number *= weight);

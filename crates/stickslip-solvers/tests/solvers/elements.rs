@@ -121,12 +121,14 @@ fn cut_simplices<const D: usize>(random: &[f64]) -> P1<D> {
             vertices.push(origin + SVector::from_fn(|r, _| if r == c { 1.0 } else { 0.0 }));
         }
         for left_out in 0..=D {
-            cells.push(begin);
-            cells.extend(
-                (0..=D)
-                    .filter(|&c| c != left_out)
-                    .map(|c| begin + 1 + c as u32),
-            );
+            let others = (0..=D).filter(|&c| c != left_out);
+            let corners = others.map(|c| begin + 1 + c as u32);
+            cells.extend(std::iter::once(begin).chain(corners));
+            if left_out % 2 == 1 {
+                // Volumes are positive.
+                let last = cells.len() - 1;
+                cells.swap(last - 1, last);
+            }
         }
     }
     P1::new(Mesh::new(vertices, cells).expect("a mesh"))
