@@ -1,6 +1,6 @@
 //! Diagonal blocks with some components taken out.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SMatrix;
 
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 use crate::energy::expect;
@@ -19,36 +19,6 @@ pub fn decouple<const C: usize>(
         (false, _) => block[(r, c)],
         (true, diagonal) => f64::from(u8::from(diagonal)),
     })
-}
-
-/// The solution of `block x = force` by elimination without square roots; `None` unless the block is positive definite.
-#[inline(always)]
-pub(crate) fn solve<const C: usize>(
-    block: &SMatrix<f64, C, C>,
-    force: &SVector<f64, C>,
-) -> Option<SVector<f64, C>> {
-    let (mut left, mut shares, mut x) = (*block, SMatrix::<f64, C, C>::zeros(), *force);
-    for k in 0..C {
-        let pivot = left[(k, k)];
-        if pivot.is_nan() || pivot <= 0.0 {
-            return None;
-        }
-        let inverse = pivot.recip();
-        for r in k + 1..C {
-            shares[(r, k)] = left[(r, k)] * inverse;
-            x[r] -= shares[(r, k)] * x[k];
-            for c in k + 1..=r {
-                left[(r, c)] -= shares[(r, k)] * left[(c, k)];
-            }
-        }
-        x[k] *= inverse;
-    }
-    for k in (0..C).rev() {
-        for r in k + 1..C {
-            x[k] -= shares[(r, k)] * x[r];
-        }
-    }
-    Some(x)
 }
 
 /// The inverse on the free components, zero on the fixed ones; `None` unless positive definite there.

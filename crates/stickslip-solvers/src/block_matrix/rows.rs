@@ -90,20 +90,12 @@ impl<'a, T> Rows<'a, T> {
 /// The entries of a block, in double or in single precision.
 pub(crate) trait Block<const C: usize>: Copy + Send + Sync {
     fn entry(&self, row: usize, column: usize) -> f64;
-
-    /// The block times a vector.
-    fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C>;
 }
 
 impl<const C: usize> Block<C> for SMatrix<f64, C, C> {
     #[inline(always)]
     fn entry(&self, row: usize, column: usize) -> f64 {
         self.data.0[column][row]
-    }
-
-    #[inline(always)]
-    fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C> {
-        self * x
     }
 }
 
@@ -112,11 +104,6 @@ impl<B: Block<C>, const C: usize> Block<C> for &B {
     fn entry(&self, row: usize, column: usize) -> f64 {
         (**self).entry(row, column)
     }
-
-    #[inline(always)]
-    fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C> {
-        (**self).times(x)
-    }
 }
 
 /// By columns.
@@ -124,11 +111,6 @@ impl<const C: usize> Block<C> for [[f32; C]; C] {
     #[inline(always)]
     fn entry(&self, row: usize, column: usize) -> f64 {
         f64::from(self[column][row])
-    }
-
-    #[inline(always)]
-    fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C> {
-        SMatrix::from_fn(|r, c| self.entry(r, c)) * x
     }
 }
 

@@ -115,7 +115,8 @@ impl<B: Coupling<C>, const C: usize> Before<'_, B, C> {
     /// One entry of a row times a vector.
     #[inline(always)]
     pub(super) fn times(&self, i: usize, entry: usize, x: &SVector<f64, C>) -> SVector<f64, C> {
-        self.in_unit(i, self.rows.values[self.rows.range(i)][entry].times(x))
+        let block = &self.rows.values[self.rows.range(i)][entry];
+        self.in_unit(i, SMatrix::from_fn(|r, c| block.entry(r, c)) * x)
     }
 
     /// Adds the contributions of `x_i` to earlier rows.

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{Inverses, Sweep};
-use crate::block::{decouple, solve};
+use crate::block::decouple;
 use crate::block_matrix::{Rows, row_product_behind};
 use crate::field::clear_masked;
 use crate::{BlockMatrix, Energy};
@@ -108,4 +108,34 @@ impl<const C: usize> Sweep<C> {
         let rows = Rows::of(energy.operator);
         self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]]
     }
+}
+
+/// The solution of `block x = force` by elimination without square roots; `None` unless the block is positive definite.
+#[inline(always)]
+fn solve<const C: usize>(
+    block: &SMatrix<f64, C, C>,
+    force: &SVector<f64, C>,
+) -> Option<SVector<f64, C>> {
+    let (mut left, mut shares, mut x) = (*block, SMatrix::<f64, C, C>::zeros(), *force);
+    for k in 0..C {
+        let pivot = left[(k, k)];
+        if pivot.is_nan() || pivot <= 0.0 {
+            return None;
+        }
+        let inverse = pivot.recip();
+        for r in k + 1..C {
+            shares[(r, k)] = left[(r, k)] * inverse;
+            x[r] -= shares[(r, k)] * x[k];
+            for c in k + 1..=r {
+                left[(r, c)] -= shares[(r, k)] * left[(c, k)];
+            }
+        }
+        x[k] *= inverse;
+    }
+    for k in (0..C).rev() {
+        for r in k + 1..C {
+            x[k] -= shares[(r, k)] * x[r];
+        }
+    }
+    Some(x)
 }
