@@ -101,7 +101,8 @@ proptest! {
             b.run(&steps, |_| ())?;
             let scheme = GeneralizedAlpha::default();
             let mut c = Simulation::new(scene(&own, bump)?, scheme, DenseNewton::new())?;
-            c.run(&Steps::adaptive(1e-6).until(100.0), |_| ())?;
+            // An event amplifies the errors of the steps before it.
+            c.run(&Steps::adaptive(1e-7).until(100.0), |_| ())?;
             let [a, b, c] = [a.snapshot(), b.snapshot(), c.snapshot()].map(|at| at.displacement.to_vec());
             let largest = b.iter().map(|u| u[0].abs()).fold(0.0, f64::max);
             assert!(largest > 1e-7, "{largest:e}");
