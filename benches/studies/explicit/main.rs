@@ -4,13 +4,14 @@
 //! `CentralDifferences`: once with `elasticity`, once with `element_stiffness`, in turns in one program, in one thread and in
 //! several. A triad `a = b + s c` of large arrays in the same run is the bandwidth to compare with.
 //!
-//! With `--levels` the cube slides on a hundredth of its base, with cells that grow from there to eight times their edges: once in
+//! With `--levels` the cube slides on a patch of its base, with cells that grow from there to eight times their edges: once in
 //! equal steps, once in local ones.
 //!
 //! ```text
 //! cargo run --release --manifest-path benches/studies/Cargo.toml --bin explicit
 //! cargo run --release --manifest-path benches/studies/Cargo.toml --bin explicit -- --side 119 --memory
 //! cargo run --release --manifest-path benches/studies/Cargo.toml --bin explicit -- --side 24 --levels 4 --steps 16
+//! cargo run --release --manifest-path benches/studies/Cargo.toml --bin explicit -- --side 24 --levels 4 --steps 16 --patch 50
 //! ```
 
 use std::process::ExitCode;
@@ -49,6 +50,9 @@ struct Arguments {
     /// Levels of local steps, against equal steps of a graded body
     #[arg(long, value_name = "COUNT", conflicts_with = "memory")]
     levels: Option<usize>,
+    /// With levels: the radius of the patch that slides, with the smallest cells [m]
+    #[arg(long, value_name = "METRES", default_value_t = 25.0)]
+    patch: f64,
     /// Without the matrix: the memory of one simulation
     #[arg(long)]
     memory: bool,
@@ -116,7 +120,7 @@ fn rows(side: usize, arguments: &Arguments) -> Result<(), Problem> {
 /// The line of one size of a graded body, in equal and in local steps.
 fn local(side: usize, levels: usize, arguments: &Arguments) -> Result<(), Problem> {
     let middle = Vector3::new(500.0, 500.0, 0.0);
-    let beyond = |x: &Vector3<f64>| ((x - middle).norm() - 50.0).max(0.0);
+    let beyond = |x: &Vector3<f64>| ((x - middle).norm() - arguments.patch).max(0.0);
     let edge = 1e3 / side as f64;
     // From an eighth of the edge of a brick, to the edge at half of the way to the sides.
     let space = P1::<3>::grid([1e3; 3], [side; 3])?;

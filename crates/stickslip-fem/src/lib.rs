@@ -152,7 +152,9 @@ pub use constraints::Constraints;
 pub use cut::SplitSurface;
 pub use dashpot::{Impedance, antiplane_dashpot, dashpot};
 pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
-pub use elementwise::{ElementStiffness, element_stiffness, element_stiffness_by_cell};
+pub use elementwise::{
+    BeginPart, ElementStiffness, EndPart, element_stiffness, element_stiffness_by_cell,
+};
 pub use error::FemError;
 #[cfg(any(feature = "gmsh", feature = "csv"))]
 pub use file_place::{FileItem, FilePlace};

@@ -1,5 +1,7 @@
 //! A diagonal operator: every vertex is a separate problem, or every pair across a fault.
 
+use std::ops::Range;
+
 use nalgebra::{SMatrix, SVector};
 
 use stickslip_core::compiled;
@@ -7,7 +9,7 @@ use stickslip_core::compiled;
 use crate::block::{decouple, inverse};
 use crate::block_matrix::Rows;
 use crate::field::clear_masked;
-use crate::parts::sum_parts;
+use crate::parts::{gather_contact, sum_parts};
 use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping};
 
 /// Solves a block diagonal problem exactly, one vertex after the other. An explicit scheme with a lumped mass has such
@@ -24,15 +26,17 @@ pub struct Diagonal<const C: usize> {
     coupled: Vec<(usize, SMatrix<f64, C, C>)>,
     /// The blocks of the frictional vertices.
     blocks: Vec<SMatrix<f64, C, C>>,
-    minimizers: Vec<SVector<f64, C>>,
-    /// The vertices of `blocks` that are no part of a pair.
+    /// The vertices of `blocks` that are no part of a pair, and their velocities.
     single: Vec<usize>,
+    minimizers: Vec<SVector<f64, C>>,
     pairs: Vec<Pair<C>>,
     /// The velocities of pairs.
     paired: Vec<[SVector<f64, C>; 2]>,
     /// The vertices with a fixed component, and the fixed part of the velocity there.
     held: Vec<usize>,
     prescribed: Vec<SVector<f64, C>>,
+    /// The vertices with friction, a fixed component, an inverse that is not diagonal, or a partner, increasing.
+    others: Vec<usize>,
 }
 
 /// Two vertices that are coupled to each other alone.
@@ -112,6 +116,109 @@ impl<const C: usize> Diagonal<C> {
     pub fn new() -> Self {
         Self::default()
     }
+
+    /// The diagonals of the inverse blocks.
+    #[cfg(feature = "fem")]
+    pub(crate) fn inverses(&self) -> &[SVector<f64, C>] {
+        &self.inverses
+    }
+
+    /// The vertices whose velocity is not the diagonal of the inverse times the load, increasing.
+    #[cfg(feature = "fem")]
+    pub(crate) fn others(&self) -> &[usize] {
+        &self.others
+    }
+
+    /// The minimiser; with `all` at all vertices, without at those that are not free.
+    pub(crate) fn solve(
+        &mut self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        norm: &BlockMatrix<C>,
+        v: &mut [SVector<f64, C>],
+        all: bool,
+    ) -> Result<SolveReport, SolveError> {
+        let (size, frictional) = (self.inverses.len(), self.blocks.len());
+        energy.check_sizes(size, frictional, norm, v)?;
+        for (paired, pair) in self.paired.iter_mut().zip(&self.pairs) {
+            *paired = pair.solve(energy, v);
+        }
+        let (matrix, values) = (Rows::of(energy.operator), energy.operator.data());
+        let own = |i: usize| values[matrix.starts[i] as usize];
+        let prescribed = |i: usize, v: &SVector<f64, C>| {
+            SVector::<f64, C>::from_fn(|c, _| if energy.fixed[i][c] { v[c] } else { 0.0 })
+        };
+        let (single, blocks, velocity) = (&self.single, &self.blocks, &*v);
+        let minimize = |part: Range<usize>, minimizers: &mut [SVector<f64, C>]| {
+            for (minimizer, &k) in minimizers.iter_mut().zip(&single[part]) {
+                let i = energy.vertices[k];
+                let held = prescribed(i, &velocity[i]);
+                let mut force = energy.load[i] - own(i) * held;
+                clear_masked(&mut force, &energy.fixed[i]);
+                *minimizer = energy.potentials.minimize(k, &blocks[k], &force) + held;
+            }
+        };
+        gather_contact(
+            single.len(),
+            &mut self.minimizers[..],
+            &minimize,
+            &|(), ()| (),
+        );
+        for (held, &i) in self.prescribed.iter_mut().zip(&self.held) {
+            *held = prescribed(i, &v[i]);
+        }
+        let own_part = |part: Range<usize>, v: &mut [SVector<f64, C>]| {
+            let mut sum = SVector::<f64, C>::zeros();
+            let (inverses, load) = (&self.inverses[part.clone()], &energy.load[part]);
+            for ((v, inverse), load) in v.iter_mut().zip(inverses).zip(load) {
+                *v = inverse.component_mul(load);
+                sum += *v;
+            }
+            sum.sum()
+        };
+        let mut sum = match all {
+            true => sum_parts(0..v.len(), &mut *v, &own_part),
+            false => (self.others.iter())
+                .map(|&i| own_part(i..i + 1, &mut v[i..=i]))
+                .sum(),
+        };
+        for (i, inverse) in &self.coupled {
+            v[*i] = inverse * energy.load[*i];
+            sum += v[*i].sum();
+        }
+        // The inverse is zero where a component is fixed.
+        for (held, &i) in self.prescribed.iter().zip(&self.held) {
+            let pull = own(i) * held;
+            let place = self.coupled.binary_search_by_key(&i, |(vertex, _)| *vertex);
+            v[i] += held
+                - match place {
+                    Ok(place) => self.coupled[place].1 * pull,
+                    Err(_) => self.inverses[i].component_mul(&pull),
+                };
+        }
+        for (minimizer, &k) in self.minimizers.iter().zip(&self.single) {
+            v[energy.vertices[k]] = *minimizer;
+            sum += minimizer.sum();
+        }
+        for (paired, pair) in self.paired.iter().zip(&self.pairs) {
+            for (&i, velocity) in pair.vertices.iter().zip(paired) {
+                v[i] = *velocity;
+                sum += velocity.sum();
+            }
+        }
+        // A sum of finite numbers that overflows is no velocity either.
+        if sum.is_finite() {
+            Ok(SolveReport {
+                iterations: 1,
+                cycles: 0,
+                error: 0.0,
+            })
+        } else {
+            Err(SolveError::NotFinite {
+                iteration: 1,
+                change: sum,
+            })
+        }
+    }
 }
 
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
@@ -184,8 +291,17 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
             let block = &rows.values[row.start];
             self.blocks.push(decouple(block, &energy.fixed[vertex]));
         }
-        self.minimizers.resize(self.blocks.len(), SVector::zeros());
+        self.minimizers.resize(self.single.len(), SVector::zeros());
         self.prescribed.resize(self.held.len(), SVector::zeros());
+        self.others.clear();
+        self.others.extend_from_slice(energy.vertices);
+        self.others.extend_from_slice(&self.held);
+        self.others
+            .extend(self.coupled.iter().map(|(vertex, _)| vertex));
+        self.others
+            .extend(self.pairs.iter().flat_map(|pair| pair.vertices));
+        self.others.sort_unstable();
+        self.others.dedup();
         Ok(())
     }
 
@@ -195,72 +311,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
         stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
-        let (size, frictional) = (self.inverses.len(), self.blocks.len());
-        energy.check_sizes(size, frictional, stopping.norm, v)?;
-        for (paired, pair) in self.paired.iter_mut().zip(&self.pairs) {
-            *paired = pair.solve(energy, v);
-        }
-        let (matrix, values) = (Rows::of(energy.operator), energy.operator.data());
-        let own = |i: usize| values[matrix.starts[i] as usize];
-        let prescribed = |i: usize, v: &SVector<f64, C>| {
-            SVector::<f64, C>::from_fn(|c, _| if energy.fixed[i][c] { v[c] } else { 0.0 })
-        };
-        for &k in &self.single {
-            let i = energy.vertices[k];
-            let held = prescribed(i, &v[i]);
-            let mut force = energy.load[i] - own(i) * held;
-            clear_masked(&mut force, &energy.fixed[i]);
-            self.minimizers[k] = energy.potentials.minimize(k, &self.blocks[k], &force) + held;
-        }
-        for (held, &i) in self.prescribed.iter_mut().zip(&self.held) {
-            *held = prescribed(i, &v[i]);
-        }
-        let mut sum = sum_parts(0..v.len(), &mut *v, &|part, v| {
-            let mut sum = SVector::<f64, C>::zeros();
-            let (inverses, load) = (&self.inverses[part.clone()], &energy.load[part]);
-            for ((v, inverse), load) in v.iter_mut().zip(inverses).zip(load) {
-                *v = inverse.component_mul(load);
-                sum += *v;
-            }
-            sum.sum()
-        });
-        for (i, inverse) in &self.coupled {
-            v[*i] = inverse * energy.load[*i];
-            sum += v[*i].sum();
-        }
-        // The inverse is zero where a component is fixed.
-        for (held, &i) in self.prescribed.iter().zip(&self.held) {
-            let pull = own(i) * held;
-            let place = self.coupled.binary_search_by_key(&i, |(vertex, _)| *vertex);
-            v[i] += held
-                - match place {
-                    Ok(place) => self.coupled[place].1 * pull,
-                    Err(_) => self.inverses[i].component_mul(&pull),
-                };
-        }
-        for &k in &self.single {
-            v[energy.vertices[k]] = self.minimizers[k];
-            sum += self.minimizers[k].sum();
-        }
-        for (paired, pair) in self.paired.iter().zip(&self.pairs) {
-            for (&i, velocity) in pair.vertices.iter().zip(paired) {
-                v[i] = *velocity;
-                sum += velocity.sum();
-            }
-        }
-        // A sum of finite numbers that overflows is no velocity either.
-        if sum.is_finite() {
-            Ok(SolveReport {
-                iterations: 1,
-                cycles: 0,
-                error: 0.0,
-            })
-        } else {
-            Err(SolveError::NotFinite {
-                iteration: 1,
-                change: sum,
-            })
-        }
+        self.solve(energy, stopping.norm, v, true)
     }
 
     fn into_object(self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {

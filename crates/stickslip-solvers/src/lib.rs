@@ -93,6 +93,7 @@ mod energy;
 mod error;
 mod field;
 mod frames;
+mod free_vertices;
 mod frictional;
 #[cfg(feature = "sparse")]
 mod frictional_vertices;
@@ -124,6 +125,7 @@ mod packed_symmetric;
 mod parts;
 mod point;
 mod potentials;
+mod product_by_parts;
 #[cfg(feature = "sparse")]
 mod products;
 #[cfg(any(feature = "sparse", feature = "multigrid", feature = "condensed"))]
@@ -136,6 +138,7 @@ mod several_vectors;
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 mod simd;
 mod solver;
+mod stopping;
 #[cfg(feature = "sparse")]
 mod sweep;
 #[cfg(feature = "condensed")]
@@ -174,6 +177,7 @@ pub use element_operator::ElementOperator;
 pub use energy::Energy;
 pub use error::SolveError;
 pub use frames::Frames;
+pub use free_vertices::FreeVertices;
 pub use frictional::FrictionalSolver;
 #[cfg(feature = "sparse")]
 pub use gauss_seidel::BlockGaussSeidel;
@@ -196,10 +200,12 @@ pub use operator::Operator;
 pub use parts::{Divide, for_parts, sum_parts};
 pub use point::Point;
 pub use potentials::Potentials;
+pub use product_by_parts::{BeginPart, EndPart, ProductByParts};
 pub use ranks::{Collective, Ranks};
 #[cfg(feature = "condensed")]
 pub use reduction::{Between, Mode, Modes, StaticResponses};
-pub use solver::{Counters, NonsmoothSolver, SolveReport, Stopping};
+pub use solver::{Counters, NonsmoothSolver};
+pub use stopping::{SolveReport, Stopping};
 #[cfg(feature = "condensed")]
 pub use symmetric::Symmetric;
 #[cfg(feature = "multigrid")]

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_core::compiled;
 
 use crate::block_matrix::{Rows, add, on_patterns};
-use crate::products::{Entry, multiply_add, quadratic};
+use crate::products::{Entry, multiply_add, multiply_add_diagonal, quadratic};
 use crate::{Basis, BlockMatrix, Matrix, Operator};
 
 /// A sparse mass: one number per pair of vertices if all its blocks are multiples of the unit matrix, as in finite
@@ -30,32 +30,34 @@ pub struct MassMatrix<const C: usize>(Format<C>);
 #[derive(Debug, Clone, PartialEq)]
 enum Format<const C: usize> {
     Scalars(sprs::CsMatI<f64, u32>),
+    /// Numbers on the diagonal alone.
+    Lumped(sprs::CsMatI<f64, u32>),
     Blocks(BlockMatrix<C>),
 }
 
-use Format::{Blocks, Scalars};
+use Format::{Blocks, Lumped, Scalars};
 
 impl<const C: usize> MassMatrix<C> {
     /// Whether the mass has one number per pair of vertices instead of a block.
     pub fn is_scalar(&self) -> bool {
-        matches!(self.0, Scalars(_))
+        matches!(self.0, Scalars(_) | Lumped(_))
     }
 
     /// The mass with one block per pair of vertices.
     fn blocks(&mut self) -> &mut BlockMatrix<C> {
-        if let Scalars(scalars) = &self.0 {
+        if let Scalars(scalars) | Lumped(scalars) = &self.0 {
             self.0 = Blocks(scalars.map(|&number| SMatrix::from_diagonal_element(number)));
         }
         match &mut self.0 {
             Blocks(blocks) => blocks,
-            Scalars(_) => unreachable!("they are blocks by now"),
+            Scalars(_) | Lumped(_) => unreachable!("they are blocks by now"),
         }
     }
 
     /// Adds `factor` times the mass to a matrix that has an entry wherever the mass has one.
     pub(crate) fn add_to(&self, sum: &mut BlockMatrix<C>, factor: f64) {
         match &self.0 {
-            Scalars(scalars) => add(sum, scalars, |sum, number| {
+            Scalars(scalars) | Lumped(scalars) => add(sum, scalars, |sum, number| {
                 let number = number * factor;
                 for c in 0..C {
                     sum[(c, c)] += number;
@@ -68,7 +70,7 @@ impl<const C: usize> MassMatrix<C> {
     /// The row starts and the columns of all rows.
     pub(crate) fn pattern(&self) -> (&[u32], &[u32]) {
         match &self.0 {
-            Scalars(scalars) => Rows::of(scalars).pattern(),
+            Scalars(scalars) | Lumped(scalars) => Rows::of(scalars).pattern(),
             Blocks(blocks) => Rows::of(blocks).pattern(),
         }
     }
@@ -91,7 +93,8 @@ compiled! {
             let (starts, columns, blocks) = blocks.into_raw_storage();
             let numbers = blocks.iter().map(|block| block[(0, 0)]).collect();
             let scalars = sprs::CsMatI::new(size, starts, columns, numbers);
-            return MassMatrix(Scalars(scalars));
+            let lumped = Rows::of(&scalars).is_diagonal();
+            return MassMatrix(if lumped { Lumped(scalars) } else { Scalars(scalars) });
         }
         MassMatrix(Blocks(blocks))
     }
@@ -104,13 +107,14 @@ compiled! {
     ) {
         match &mass.0 {
             Scalars(scalars) => multiply_add(Rows::of(scalars), scale, x, y),
+            Lumped(scalars) => multiply_add_diagonal(scalars.data(), scale, x, y),
             Blocks(blocks) => blocks.multiply_add(scale, x, y),
         }
     }
 
     fn square<C>(mass: &MassMatrix<C>, x: &[SVector<f64, C>]) -> f64 {
         match &mass.0 {
-            Scalars(scalars) => quadratic(Rows::of(scalars), x),
+            Scalars(scalars) | Lumped(scalars) => quadratic(Rows::of(scalars), x),
             Blocks(blocks) => blocks.quadratic(x),
         }
     }
@@ -153,14 +157,14 @@ impl<const C: usize> Matrix<C> for MassMatrix<C> {
 
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
         match &self.0 {
-            Scalars(scalars) => f64::row_product(&Rows::of(scalars), i, x),
+            Scalars(scalars) | Lumped(scalars) => f64::row_product(&Rows::of(scalars), i, x),
             Blocks(blocks) => blocks.product_at(i, x),
         }
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
         match &self.0 {
-            Scalars(scalars) => {
+            Scalars(scalars) | Lumped(scalars) => {
                 let number = scalars.get(i, i).copied().unwrap_or_default();
                 SMatrix::from_diagonal_element(number)
             }
@@ -170,6 +174,13 @@ impl<const C: usize> Matrix<C> for MassMatrix<C> {
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
         add_product(self, scale, x, y);
+    }
+
+    fn lumps(&self) -> Option<&[f64]> {
+        match &self.0 {
+            Lumped(numbers) => Some(numbers.data()),
+            Scalars(_) | Blocks(_) => None,
+        }
     }
 
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {

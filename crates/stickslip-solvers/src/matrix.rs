@@ -4,7 +4,7 @@ use std::any::Any;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{MatrixDefect, MeshId, Ranks};
+use crate::{MatrixDefect, MeshId, ProductByParts, Ranks};
 
 /// A matrix on fields of `C` components per vertex: `A` in `y = A x`. Solvers take symmetric ones.
 ///
@@ -71,6 +71,16 @@ pub trait Matrix<const C: usize>: Any + Send + Sync {
         if let Some(&weight) = weights.first().filter(|weight| **weight != 0.0) {
             self.multiply_add(scale * weight, x, y);
         }
+    }
+
+    /// The product part by part, if it has one; `None` by default.
+    fn by_parts(&self) -> Option<&dyn ProductByParts<C>> {
+        None
+    }
+
+    /// The numbers `m_i` of a lumped matrix `A_ii = m_i I`; `None` by default, and for other matrices.
+    fn lumps(&self) -> Option<&[f64]> {
+        None
     }
 
     /// `x . A x`.

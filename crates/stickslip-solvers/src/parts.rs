@@ -8,7 +8,7 @@ use std::ops::Range;
 /// Vertices per part: enough work for a thread.
 const PART: usize = 8192;
 /// Frictional vertices per part, each with evaluations of laws.
-#[cfg(any(feature = "multigrid", feature = "condensed"))]
+#[cfg(feature = "sparse")]
 const CONTACT_PART: usize = 512;
 
 /// Data that can be cut in two, given the number of vertices and of parts before the cut.
@@ -137,7 +137,7 @@ pub fn sum_parts<F: Divide>(
 
 /// The results of `work(places, fields)` on parts of a contact, whose vertices cost more than others; places are
 /// positions among the frictional vertices. `both` combines the results of two neighbouring parts.
-#[cfg(any(feature = "multigrid", feature = "condensed"))]
+#[cfg(feature = "sparse")]
 pub(crate) fn gather_contact<F: Divide, T: Send>(
     places: usize,
     fields: F,
@@ -150,7 +150,7 @@ pub(crate) fn gather_contact<F: Divide, T: Send>(
 }
 
 /// Works in a thread of the pool, if a contact of so many vertices is cut into parts.
-#[cfg(any(feature = "multigrid", feature = "condensed"))]
+#[cfg(feature = "sparse")]
 pub(crate) fn inside_contact<R: Send>(places: usize, work: impl FnOnce() -> R + Send) -> R {
     if places > CONTACT_PART {
         enter(work)

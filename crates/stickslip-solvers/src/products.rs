@@ -75,14 +75,7 @@ pub(crate) fn multiply_add<T: Entry<C>, const C: usize>(
     y: &mut [SVector<f64, C>],
 ) {
     if rows.is_diagonal() {
-        // As a lumped mass is: nothing to look up.
-        for_parts(0..y.len(), y, &|part, y| {
-            let (values, x) = (&rows.values[part.clone()], &x[part]);
-            for ((y, entry), x) in y.iter_mut().zip(values).zip(x) {
-                *y += entry.times(x) * scale;
-            }
-        });
-        return;
+        return multiply_add_diagonal(rows.values, scale, x, y);
     }
     let arch = Arch::new();
     for_parts(0..y.len(), y, &|part, y| {
@@ -94,6 +87,21 @@ pub(crate) fn multiply_add<T: Entry<C>, const C: usize>(
             x,
             y,
         });
+    });
+}
+
+/// `y += scale A x` of a diagonal matrix: nothing to look up.
+pub(crate) fn multiply_add_diagonal<T: Entry<C>, const C: usize>(
+    entries: &[T],
+    scale: f64,
+    x: &[SVector<f64, C>],
+    y: &mut [SVector<f64, C>],
+) {
+    for_parts(0..y.len(), y, &|part, y| {
+        let (entries, x) = (&entries[part.clone()], &x[part]);
+        for ((y, entry), x) in y.iter_mut().zip(entries).zip(x) {
+            *y += entry.times(x) * scale;
+        }
     });
 }
 

@@ -5,17 +5,17 @@ use std::cell::RefCell;
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{Level, prelude::*};
 use nalgebra::SVector;
-use pulp::bytemuck::cast_slice_mut;
+use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
 use super::chains::CHAIN;
 use super::groups::Groups;
-use super::kernel::{Corners, Lame, add_forces};
+use super::kernel::{Corners, Lame, Site, add_forces};
 use super::lame::Materials;
 use super::lanes::{Arrays, Lanes, Row, row};
 
 thread_local! {
-    /// The field at the vertices of a group.
-    static FIELD: RefCell<Vec<Row>> = const { RefCell::new(Vec::new()) };
+    /// Positions and field at the vertices of a group.
+    static SITES: RefCell<Vec<Site>> = const { RefCell::new(Vec::new()) };
 }
 
 /// The forces of a group at its vertices.
@@ -26,21 +26,24 @@ pub(super) fn forces_of<const D: usize>(
     forces: &mut [Row],
 ) {
     let vertices = &groups.vertices[groups.starts[group]..groups.starts[group + 1]];
-    FIELD.with_borrow_mut(|field| {
-        field.resize(vertices.len(), row([0.0; 4]));
-        // Number by number: rows would go through memory first.
-        let numbers: &mut [f64] = cast_slice_mut(field);
-        for (own, &p) in numbers.chunks_exact_mut(4).zip(vertices) {
-            own[..D].copy_from_slice(x[p as usize].as_slice());
-            own[D..].fill(0.0);
+    let positions = &groups.positions[groups.starts[group]..groups.starts[group + 1]];
+    SITES.with_borrow_mut(|sites| {
+        sites.resize(vertices.len(), [row([0.0; 4]); 2]);
+        // Number by number: rows would go through memory first. One after the other, the processor fetches them ahead.
+        let numbers: &mut [f64] = cast_slice_mut(sites.as_flattened_mut());
+        let positions: &[f64] = cast_slice(positions);
+        let ends = positions.chunks_exact(4).zip(vertices);
+        for (own, (position, &p)) in numbers.chunks_exact_mut(8).zip(ends) {
+            own[..4].copy_from_slice(position);
+            own[4..4 + D].copy_from_slice(x[p as usize].as_slice());
+            own[4 + D..].fill(0.0);
         }
         forces.fill(row([0.0; 4]));
         let work: Group<'_, D> = Group {
             groups,
             lame,
             group,
-            positions: &groups.positions[groups.starts[group]..groups.starts[group + 1]],
-            field,
+            sites,
             forces,
         };
         #[cfg(target_arch = "x86_64")]
@@ -62,8 +65,7 @@ struct Group<'a, const D: usize> {
     groups: &'a Groups,
     lame: &'a Materials,
     group: usize,
-    positions: &'a [Row],
-    field: &'a [Row],
+    sites: &'a [Site],
     forces: &'a mut [Row],
 }
 
@@ -120,8 +122,7 @@ impl<'a, const D: usize> Group<'a, D> {
         corners: [&Corners<K>; F],
         lame: [[&Lame; F]; N],
     ) {
-        let (positions, field) = (self.positions, self.field);
-        add_forces::<L, D, N, K, LIVE, F>(lanes, corners, lame, positions, field, self.forces);
+        add_forces::<L, D, N, K, LIVE, F>(lanes, corners, lame, self.sites, self.forces);
     }
 }
 

@@ -164,6 +164,21 @@ impl Groups {
         begin.zip(end).map_or(0..0, |(begin, end)| begin..end + 1)
     }
 
+    /// The lowest level of the cells of each of so many vertices, 0 of none; empty for a single level.
+    pub(super) fn lowest_levels(&self, vertices: usize) -> Vec<u8> {
+        if self.levels() == 1 {
+            return Vec::new();
+        }
+        let mut lowest = vec![0; vertices];
+        // Levels do not decrease: what is written last is the lowest one.
+        for group in (0..self.count()).rev() {
+            for &vertex in &self.vertices[self.starts[group]..self.starts[group + 1]] {
+                lowest[vertex as usize] = self.level[group] as u8;
+            }
+        }
+        lowest
+    }
+
     /// The rows of the cells in chains of a group, and those of its other cells.
     pub(super) fn rows_of(&self, group: usize) -> [Range<usize>; 2] {
         let (begin, end) = (self.rows[group], self.rows[group + 1]);

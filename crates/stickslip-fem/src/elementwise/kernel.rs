@@ -7,6 +7,9 @@ use super::lanes::{Lanes, Row};
 /// The vertices of four chains or cells, by vertex: places among the vertices of their group.
 pub(super) type Corners<const K: usize> = [[u16; 4]; K];
 
+/// The position of a vertex \[m\], and the vector of the field there: side by side, for the cache.
+pub(super) type Site = [Row; 2];
+
 /// Lamé's parameters of four cells \[Pa\].
 pub(super) type Lame = [Row; 2];
 
@@ -45,13 +48,12 @@ pub(super) fn add_forces<
     lanes: L,
     corners: [&Corners<K>; F],
     lame: [[&Lame; F]; N],
-    positions: &[Row],
-    field: &[Row],
+    sites: &[Site],
     forces: &mut [Row],
 ) {
     let zero = lanes.splat(0.0);
-    let edges = differences::<L, D, N, K, F>(lanes, corners, positions);
-    let steps = differences::<L, D, N, K, F>(lanes, corners, field);
+    let edges = differences::<L, D, N, K, F, 0>(lanes, corners, sites);
+    let steps = differences::<L, D, N, K, F, 1>(lanes, corners, sites);
     let mut force = [[zero; 3]; K];
     add_cell::<L, D, K, F, 0>(lanes, lame[0], &edges, &steps, &mut force);
     if N > 1 {
@@ -108,16 +110,23 @@ fn add_cell<L: Lanes<F>, const D: usize, const K: usize, const F: usize, const C
 
 /// The differences of the vectors at the vertices of chains from that at the origin.
 #[inline(always)]
-fn differences<L: Lanes<F>, const D: usize, const N: usize, const K: usize, const F: usize>(
+fn differences<
+    L: Lanes<F>,
+    const D: usize,
+    const N: usize,
+    const K: usize,
+    const F: usize,
+    const ROW: usize,
+>(
     lanes: L,
     corners: [&Corners<K>; F],
-    rows: &[Row],
+    sites: &[Site],
 ) -> [[L::Number; 3]; K] {
-    let origin = at(lanes, corners, ORIGIN, rows);
+    let origin = at::<L, K, F, ROW>(lanes, corners, ORIGIN, sites);
     let mut differences = [origin; K];
     for v in 0..N + D {
         if v != ORIGIN {
-            let end = at(lanes, corners, v, rows);
+            let end = at::<L, K, F, ROW>(lanes, corners, v, sites);
             for i in 0..D {
                 differences[v][i] = lanes.sub(end[i], origin[i]);
             }
@@ -128,16 +137,16 @@ fn differences<L: Lanes<F>, const D: usize, const N: usize, const K: usize, cons
 
 /// The vectors at one vertex of each chain, by components.
 #[inline(always)]
-fn at<L: Lanes<F>, const K: usize, const F: usize>(
+fn at<L: Lanes<F>, const K: usize, const F: usize, const ROW: usize>(
     lanes: L,
     corners: [&Corners<K>; F],
     v: usize,
-    rows: &[Row],
+    sites: &[Site],
 ) -> [L::Number; 3] {
-    let mut all = [[&rows[0]; 4]; F];
+    let mut all = [[&sites[0][ROW]; 4]; F];
     for f in 0..F {
         for l in 0..4 {
-            all[f][l] = &rows[usize::from(corners[f][v][l])];
+            all[f][l] = &sites[usize::from(corners[f][v][l])][ROW];
         }
     }
     lanes.columns(all)

@@ -169,6 +169,12 @@ impl<const D: usize> ElementStiffness<D> {
         levels.max().unwrap_or(0)
     }
 
+    /// The lowest level of the cells of each vertex: in steps whose weights above 0 are those of lower levels, no force acts
+    /// there. Empty for a single level.
+    pub fn lowest_levels(&self) -> &[u8] {
+        &self.elements.lowest
+    }
+
     /// `y += scale (sum over levels l of weights[l] A_l) x`, with the weight 0 for those that are not given. Cells without weight
     /// are not computed, unless they are of a level between others.
     ///

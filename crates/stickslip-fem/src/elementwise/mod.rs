@@ -26,7 +26,8 @@ use copies::Copies;
 use groups::Groups;
 use lame::Materials;
 use lanes::Row;
-use product::add_product;
+pub use product::{BeginPart, EndPart};
+use product::{add_product, add_product_by_parts};
 
 /// The stiffness of an elastic body without a matrix, for explicit steps of large bodies.
 ///
@@ -76,6 +77,8 @@ pub struct ElementStiffness<const D: usize> {
 struct Elements {
     groups: Groups,
     copies: Copies,
+    /// The lowest level of the cells of each vertex; empty for a single level.
+    lowest: Vec<u8>,
     /// The forces at the vertices of the groups; empty before the first product.
     forces: Mutex<Vec<Row>>,
     mesh: MeshIdentity,
@@ -88,6 +91,7 @@ impl Elements {
         let groups = Groups::of(mesh, level);
         Self {
             copies: Copies::of(&groups, mesh.vertex_count()),
+            lowest: groups.lowest_levels(mesh.vertex_count()),
             groups,
             forces: Mutex::default(),
             mesh: mesh.identity(),
@@ -187,6 +191,61 @@ impl<const D: usize> ElementStiffness<D> {
         let vertices = self.vertex_count();
         assert_eq!([x.len(), y.len()], [vertices; 2], "vectors of two fields");
         add_product(self, None, scale, x, y);
+    }
+
+    /// [`multiply_add_levels`](Self::multiply_add_levels) part by part, for `y` as the first of three fields: for parts of the
+    /// vertices, each in one part, `begin(first, y)` before the sums of the part, from the vertex `first` on, and `end(first,
+    /// [y, p, q])` behind them, while the part is in the cache. Parts share the threads. What precedes and follows the product
+    /// at each vertex hence needs no passes over memory of its own.
+    ///
+    /// ```
+    /// use nalgebra::Vector2;
+    /// use stickslip_fem::{Elastic, P1, element_stiffness, lumped_mass};
+    ///
+    /// let space = P1::grid([2.0, 1.0], [4, 2])?;
+    /// let stiffness = element_stiffness(&space, &Elastic { young_modulus: 2.5, poisson_ratio: 0.25 })?;
+    /// let mass: Vec<f64> = lumped_mass::<2, 2>(&space, 1.0)?.data().iter().map(|block| block[(0, 0)]).collect();
+    /// let u = space.interpolate(|x| Vector2::new(x[1] * x[1], 0.0));
+    /// let [mut force, mut acceleration, mut doubled] = [(); 3].map(|()| vec![Vector2::zeros(); space.vertex_count()]);
+    /// stiffness.multiply_add_by_parts(
+    ///     &[1.0],
+    ///     -1.0,
+    ///     &u,
+    ///     [&mut force, &mut acceleration, &mut doubled],
+    ///     &|_, force| force.fill(Vector2::zeros()),
+    ///     &|first, [force, acceleration, doubled]| {
+    ///         for (i, force) in force.iter().enumerate() {
+    ///             acceleration[i] = force / mass[first + i];
+    ///             doubled[i] = 2.0 * acceleration[i];
+    ///         }
+    ///     },
+    /// );
+    /// let mut expected = vec![Vector2::zeros(); space.vertex_count()];
+    /// stiffness.multiply_add(-1.0, &u, &mut expected);
+    /// assert_eq!(force, expected);
+    /// assert_eq!(acceleration[7], expected[7] / mass[7]);
+    /// # Ok::<(), stickslip_fem::FemError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// For fields of another length.
+    pub fn multiply_add_by_parts(
+        &self,
+        weights: &[f64],
+        scale: f64,
+        x: &[SVector<f64, D>],
+        fields: [&mut [SVector<f64, D>]; 3],
+        begin: BeginPart<'_, D>,
+        end: EndPart<'_, D>,
+    ) {
+        let lengths = fields.each_ref().map(|field| field.len());
+        let vertices = self.vertex_count();
+        assert_eq!(
+            (x.len(), lengths),
+            (vertices, [vertices; 3]),
+            "vectors of four fields"
+        );
+        add_product_by_parts(self, weights, scale, x, fields, begin, end);
     }
 
     /// The factor of a multiple of another stiffness, which shares its memory: `self = factor other`.

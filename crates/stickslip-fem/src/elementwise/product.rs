@@ -1,15 +1,24 @@
 //! The product with a field: group by group, then vertex by vertex.
 
+use std::mem::take;
+use std::ops::Range;
+
 use nalgebra::SVector;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use stickslip_core::compiled;
 
 use super::ElementStiffness;
+use super::copies::Copies;
 use super::group_forces::forces_of;
 use super::lanes::{Row, row};
 
-/// Vertices of a part of the sums: enough work for a thread.
-const PART: usize = 8192;
+/// Vertices of a part of the sums: enough work for a thread, and few enough for its cache.
+const PART: usize = 2048;
+
+/// `begin(first, y)`: writes a part of the forces \[N\] from the vertex `first` on.
+pub type BeginPart<'a, const D: usize> = &'a (dyn Fn(usize, &mut [SVector<f64, D>]) + Sync);
+/// `end(first, [y, p, q])`: reads and writes a part of the forces \[N\] and of two more fields from the vertex `first` on.
+pub type EndPart<'a, const D: usize> = &'a (dyn Fn(usize, [&mut [SVector<f64, D>]; 3]) + Sync);
 
 compiled! {
     /// `y += scale A x`; with weights, the sum over levels of local steps of the weight times their part.
@@ -20,38 +29,105 @@ compiled! {
         x: &[SVector<f64, D>],
         y: &mut [SVector<f64, D>],
     ) {
-        let elements = &*stiffness.elements;
-        // Two products at a time are for the second of them to find memory.
-        let mut shared = elements.forces.try_lock();
-        let mut own = Vec::new();
-        let forces = match &mut shared {
-            Ok(shared) => &mut **shared,
-            Err(_) => &mut own,
-        };
-        let groups = &elements.groups;
-        let some = weights.map_or(0..groups.count(), |weights| groups.with(weights));
-        let places = groups.starts[some.start]..groups.starts[some.end];
-        forces.resize(groups.vertices.len(), row([0.0; 4]));
-        let forces = &mut forces[..places.len()];
-        for_groups((stiffness, weights), some, x, forces);
-        let (forces, scale): (&[f64], f64) = (cast_slice(forces), scale * stiffness.factor);
-        for_vertices(0, y, &|first, y| {
-            for (i, y) in (first..).zip(y) {
-                // In a step without its cells the vertex is not touched.
-                if let Some(sum) = elements.copies.sum::<D>(i, &places, forces) {
-                    for c in 0..D {
-                        y[c] += scale * sum[c];
-                    }
-                }
-            }
+        with_sums(stiffness, weights, scale, x, |sums| {
+            for_vertices(0, [y], &|first, [y]| sums.add(first, y));
         });
     }
+
+    /// The same part by part, with what precedes and follows each part.
+    pub(super) fn add_product_by_parts<D in 2, 3>(
+        stiffness: &ElementStiffness<D>,
+        weights: &[f64],
+        scale: f64,
+        x: &[SVector<f64, D>],
+        fields: [&mut [SVector<f64, D>]; 3],
+        begin: BeginPart<'_, D>,
+        end: EndPart<'_, D>,
+    ) {
+        with_sums(stiffness, Some(weights), scale, x, |sums| {
+            for_vertices(0, fields, &|first, [y, p, q]| {
+                begin(first, y);
+                sums.add(first, y);
+                end(first, [y, p, q]);
+            });
+        });
+    }
+}
+
+/// The sums over the copies of vertices, of forces that are known.
+struct Sums<'a> {
+    copies: &'a Copies,
+    /// The lowest level of the cells of each vertex, if there are several, and the highest that acts.
+    lowest: &'a [u8],
+    highest: u8,
+    /// The copies that have forces.
+    places: Range<usize>,
+    forces: &'a [f64],
+    scale: f64,
+}
+
+impl Sums<'_> {
+    /// Adds the forces at a part of the vertices.
+    #[inline(always)]
+    fn add<const D: usize>(&self, first: usize, y: &mut [SVector<f64, D>]) {
+        for (i, y) in (first..).zip(y) {
+            if self
+                .lowest
+                .get(i)
+                .is_some_and(|level| *level > self.highest)
+            {
+                continue;
+            }
+            // In a step without its cells the vertex is not touched.
+            if let Some(sum) = self.copies.sum::<D>(i, &self.places, self.forces) {
+                for c in 0..D {
+                    y[c] += self.scale * sum[c];
+                }
+            }
+        }
+    }
+}
+
+/// Computes the forces of the groups with weights, and hands over their sums.
+fn with_sums<const D: usize>(
+    stiffness: &ElementStiffness<D>,
+    weights: Option<&[f64]>,
+    scale: f64,
+    x: &[SVector<f64, D>],
+    work: impl FnOnce(&Sums<'_>),
+) {
+    let elements = &*stiffness.elements;
+    // Two products at a time are for the second of them to find memory.
+    let mut shared = elements.forces.try_lock();
+    let mut own = Vec::new();
+    let forces = match &mut shared {
+        Ok(shared) => &mut **shared,
+        Err(_) => &mut own,
+    };
+    let groups = &elements.groups;
+    let some = weights.map_or(0..groups.count(), |weights| groups.with(weights));
+    let places = groups.starts[some.start]..groups.starts[some.end];
+    let highest = some
+        .clone()
+        .last()
+        .map_or(0, |group| groups.level[group] as u8);
+    forces.resize(groups.vertices.len(), row([0.0; 4]));
+    let forces = &mut forces[..places.len()];
+    for_groups((stiffness, weights), some, x, forces);
+    work(&Sums {
+        copies: &elements.copies,
+        lowest: &elements.lowest,
+        highest,
+        places,
+        forces: cast_slice(forces),
+        scale: scale * stiffness.factor,
+    });
 }
 
 /// The forces of some groups at their vertices; `forces` are those of these groups.
 fn for_groups<const D: usize>(
     (stiffness, weights): (&ElementStiffness<D>, Option<&[f64]>),
-    some: std::ops::Range<usize>,
+    some: Range<usize>,
     x: &[SVector<f64, D>],
     forces: &mut [Row],
 ) {
@@ -81,17 +157,20 @@ fn for_groups<const D: usize>(
     );
 }
 
-/// `work(first, part)` for parts of the vertices with the number of their first one.
-fn for_vertices<const D: usize>(
+/// `work(first, parts)` for parts of fields with the number of their first vertex.
+fn for_vertices<const D: usize, const K: usize>(
     first: usize,
-    y: &mut [SVector<f64, D>],
-    work: &(impl Fn(usize, &mut [SVector<f64, D>]) + Sync),
+    fields: [&mut [SVector<f64, D>]; K],
+    work: &(impl Fn(usize, [&mut [SVector<f64, D>]; K]) + Sync),
 ) {
-    if y.len() <= PART {
-        return work(first, y);
+    let vertices = fields[0].len();
+    if vertices <= PART {
+        return work(first, fields);
     }
-    let half = y.len() / 2;
-    let (before, behind) = y.split_at_mut(half);
+    let half = vertices / 2;
+    let mut halves = fields.map(|field| field.split_at_mut(half));
+    let before = halves.each_mut().map(|(before, _)| take(before));
+    let behind = halves.map(|(_, behind)| behind);
     join(
         || for_vertices(first, before, work),
         || for_vertices(first + half, behind, work),

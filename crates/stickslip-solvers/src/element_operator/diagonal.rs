@@ -4,7 +4,9 @@ use nalgebra::SVector;
 use stickslip_core::compiled;
 
 use super::ElementOperator;
-use crate::{BlockMatrix, Diagonal, Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
+use crate::{
+    BlockMatrix, Diagonal, Energy, FreeVertices, NonsmoothSolver, SolveError, SolveReport, Stopping,
+};
 
 /// The problem with the matrix of an explicit step, which has no term by elements.
 fn by_matrix<'a, const C: usize>(
@@ -31,15 +33,11 @@ impl<const C: usize> NonsmoothSolver<ElementOperator<C>, C> for Diagonal<C> {
         stopping: &Stopping<'_, ElementOperator<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
-        let norm = stopping.norm.matrix();
-        let stopping = Stopping {
-            norm: norm.ok_or(SolveError::NotDiagonal { vertex: 0 })?,
-            tolerance: stopping.tolerance,
-            relative: stopping.relative,
-            equivalence: stopping.equivalence,
-            max_iterations: stopping.max_iterations,
-        };
-        NonsmoothSolver::<BlockMatrix<C>, C>::minimize(self, &by_matrix(energy)?, &stopping, v)
+        solve(self, energy, stopping, v, true)
+    }
+
+    fn free_vertices(&mut self) -> Option<&mut dyn FreeVertices<ElementOperator<C>, C>> {
+        Some(self)
     }
 
     fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<ElementOperator<C>, C>> {
@@ -49,6 +47,38 @@ impl<const C: usize> NonsmoothSolver<ElementOperator<C>, C> for Diagonal<C> {
     fn into_object(self) -> Box<dyn NonsmoothSolver<ElementOperator<C>, C>> {
         object(self)
     }
+}
+
+impl<const C: usize> FreeVertices<ElementOperator<C>, C> for Diagonal<C> {
+    fn compliances(&self) -> &[SVector<f64, C>] {
+        self.inverses()
+    }
+
+    fn others(&self) -> &[usize] {
+        Self::others(self)
+    }
+
+    fn minimize_others(
+        &mut self,
+        energy: &Energy<'_, ElementOperator<C>, C>,
+        stopping: &Stopping<'_, ElementOperator<C>>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        solve(self, energy, stopping, v, false)
+    }
+}
+
+/// The minimiser at all vertices, or at those that are not free.
+fn solve<const C: usize>(
+    solver: &mut Diagonal<C>,
+    energy: &Energy<'_, ElementOperator<C>, C>,
+    stopping: &Stopping<'_, ElementOperator<C>>,
+    v: &mut [SVector<f64, C>],
+    all: bool,
+) -> Result<SolveReport, SolveError> {
+    let norm = stopping.norm.matrix();
+    let norm = norm.ok_or(SolveError::NotDiagonal { vertex: 0 })?;
+    solver.solve(&by_matrix(energy)?, norm, v, all)
 }
 
 compiled! {

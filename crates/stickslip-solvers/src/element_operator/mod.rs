@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 use nalgebra::SVector;
 use stickslip_fem::ElementStiffness;
 
-use crate::{Basis, BlockMatrix, IntoOperator, MeshId, Walls};
+use crate::{Basis, BeginPart, BlockMatrix, EndPart, IntoOperator, MeshId, ProductByParts, Walls};
 use changed::Changed;
 
 /// The format of a scene for explicit steps of large bodies: the sum of stiffnesses
@@ -94,5 +94,23 @@ impl<const C: usize> IntoOperator<C> for ElementStiffness<C> {
 
     fn into_operator(self) -> ElementOperator<C> {
         ElementOperator::of(vec![(1.0, self)], None)
+    }
+}
+
+impl<const C: usize> ProductByParts<C> for ElementStiffness<C> {
+    fn lowest_levels(&self) -> &[u8] {
+        Self::lowest_levels(self)
+    }
+
+    fn multiply_add_by_parts(
+        &self,
+        weights: &[f64],
+        scale: f64,
+        x: &[SVector<f64, C>],
+        fields: [&mut [SVector<f64, C>]; 3],
+        begin: BeginPart<'_, C>,
+        end: EndPart<'_, C>,
+    ) {
+        Self::multiply_add_by_parts(self, weights, scale, x, fields, begin, end);
     }
 }

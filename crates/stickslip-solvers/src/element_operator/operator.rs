@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_fem::ElementStiffness;
 
 use super::ElementOperator;
-use crate::{Basis, BlockMatrix, MassMatrix, Matrix, MatrixDefect, Operator};
+use crate::{Basis, BlockMatrix, MassMatrix, Matrix, MatrixDefect, Operator, ProductByParts};
 
 /// Adds a factor times the forces of a field to a field, in the unknowns of the mesh.
 type Product<'a, const C: usize> = &'a dyn Fn(f64, &[SVector<f64, C>], &mut [SVector<f64, C>]);
@@ -86,6 +86,14 @@ impl<const C: usize> Matrix<C> for ElementOperator<C> {
         }
         if let Some(matrix) = &self.matrix {
             matrix.multiply_add_levels(weights, scale, x, y);
+        }
+    }
+
+    /// That of a stiffness alone, in the unknowns of the mesh.
+    fn by_parts(&self) -> Option<&dyn ProductByParts<C>> {
+        match (&self.elements[..], &self.matrix, &self.basis) {
+            ([(1.0, stiffness)], None, None) => Some(stiffness),
+            _ => None,
         }
     }
 

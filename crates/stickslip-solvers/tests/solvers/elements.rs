@@ -324,6 +324,26 @@ fn has_levels<const D: usize>(
         y
     };
     let found = by_weights(&weights);
+    // By parts: each vertex is in one part, which begins before its sums and ends behind them.
+    let [mut y, mut copy, mut places] = [(); 3].map(|()| field(count, random));
+    places.fill(SVector::zeros());
+    own.multiply_add_by_parts(
+        &weights,
+        1.0,
+        &x,
+        [&mut y, &mut copy, &mut places],
+        &|_, y| y.fill(SVector::zeros()),
+        &|first, [y, copy, places]| {
+            copy.copy_from_slice(y);
+            for (place, i) in places.iter_mut().zip(first + 1..) {
+                place[0] += i as f64;
+            }
+        },
+    );
+    prop_assert_eq!(&y, &found);
+    prop_assert_eq!(&copy, &found);
+    let all = (1..=count).map(|i| i as f64);
+    prop_assert!(places.iter().map(|place| place[0]).eq(all));
     let mut expected = vec![SVector::<f64, D>::zeros(); count];
     for (level, weight) in weights.iter().enumerate() {
         let mut one = vec![0.0; level + 1];

@@ -25,6 +25,7 @@ mod extremes;
 mod failures;
 mod faults;
 mod fixed_point_balance;
+mod free_vertices;
 mod friction_alone;
 mod globs;
 mod invariance;

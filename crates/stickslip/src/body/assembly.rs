@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{
-    Basis, Counters, Energy, Matrix, MeshId, Potentials, SolveError, SolveReport,
+    Basis, Counters, Energy, Matrix, MeshId, Potentials, SolveError, SolveReport, Stopping,
 };
 
 use super::any_solver::AnySolver;
@@ -37,6 +37,28 @@ pub(crate) struct Goal {
     pub(crate) relative: f64,
     pub(crate) equivalence: f64,
     pub(crate) max_iterations: usize,
+}
+
+impl Goal {
+    pub(super) fn in_norm<Op>(self, norm: &Op) -> Stopping<'_, Op> {
+        Stopping {
+            norm,
+            tolerance: self.tolerance,
+            relative: self.relative,
+            equivalence: self.equivalence,
+            max_iterations: self.max_iterations,
+        }
+    }
+}
+
+/// What an explicit step needs to solve for the vertices without friction itself, see
+/// [`FreeVertices`](stickslip_solvers::FreeVertices).
+#[derive(Clone, Copy)]
+pub(crate) struct Free<'a, const C: usize> {
+    /// The diagonals of the inverse blocks of all vertices [m/(N s)].
+    pub(crate) compliances: &'a [SVector<f64, C>],
+    /// The vertices that are not free, increasing.
+    pub(crate) others: &'a [usize],
 }
 
 /// The matrix `B = c_a M + C + c_u A` of a step, the norm of the coupling, and the solver: the only code that is written
@@ -85,6 +107,17 @@ pub(crate) trait Body<const C: usize>: Send {
 
     /// Moves `v` to the minimiser; of a solver that condenses, at the frictional vertices.
     fn minimize(
+        &mut self,
+        problem: &Boundary<'_, C>,
+        goal: Goal,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError>;
+
+    /// The vertices that an explicit step solves for itself, of a prepared solver.
+    fn free_vertices(&mut self) -> Option<Free<'_, C>>;
+
+    /// Moves `v` to the minimiser at the vertices that are not free.
+    fn minimize_others(
         &mut self,
         problem: &Boundary<'_, C>,
         goal: Goal,

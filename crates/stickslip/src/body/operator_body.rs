@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{
-    Basis, Counters, Matrix, MeshId, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping,
+    Basis, Counters, Matrix, MeshId, NonsmoothSolver, Operator, SolveError, SolveReport,
 };
 
 use super::any_solver::AnySolver;
-use super::assembly::{Body, Boundary, Goal};
+use super::assembly::{Body, Boundary, Free, Goal};
 use super::formatted::Formatted;
 use crate::SceneError;
 
@@ -135,17 +135,33 @@ impl<Op: Operator<C>, const C: usize> Body<C> for OperatorBody<Op, C> {
         goal: Goal,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
-        let stopping = Stopping {
-            norm: self.norm.as_ref().unwrap_or(&self.step),
-            tolerance: goal.tolerance,
-            relative: goal.relative,
-            equivalence: goal.equivalence,
-            max_iterations: goal.max_iterations,
-        };
+        let stopping = goal.in_norm(self.norm.as_ref().unwrap_or(&self.step));
         let energy = problem.with(&self.step);
         match self.solver.frictional() {
             None => self.solver.minimize(&energy, &stopping, v),
             Some(solver) => solver.minimize_condensed(&energy, &stopping, v),
+        }
+    }
+
+    fn free_vertices(&mut self) -> Option<Free<'_, C>> {
+        let solver = self.solver.free_vertices()?;
+        Some(Free {
+            compliances: solver.compliances(),
+            others: solver.others(),
+        })
+    }
+
+    fn minimize_others(
+        &mut self,
+        problem: &Boundary<'_, C>,
+        goal: Goal,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        let stopping = goal.in_norm(self.norm.as_ref().unwrap_or(&self.step));
+        let energy = problem.with(&self.step);
+        match self.solver.free_vertices() {
+            None => self.solver.minimize(&energy, &stopping, v),
+            Some(solver) => solver.minimize_others(&energy, &stopping, v),
         }
     }
 

@@ -68,6 +68,11 @@ impl<const C: usize> Loads<C> {
         vertices.map(|(load, u)| load.dot(u)).sum()
     }
 
+    /// The constant loads from a vertex on; empty without any.
+    pub(crate) fn constant_from(&self, first: usize) -> &[SVector<f64, C>] {
+        self.constant.get(first..).unwrap_or_default()
+    }
+
     /// Subtracts the constant loads from a load.
     pub(crate) fn take_constant(&self, load: &mut [SVector<f64, C>]) {
         for (load, constant) in load.iter_mut().zip(&self.constant) {

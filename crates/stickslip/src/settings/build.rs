@@ -12,8 +12,8 @@ use crate::numerics::NUMERICS;
 use crate::placement::{self, Placement};
 use crate::scene::Conditions;
 use crate::step::{
-    Certificate, InitialAcceleration, Method, Operators, Problem, Reactions, Tolerance, Traits,
-    Workspace,
+    Certificate, FreeStep, InitialAcceleration, Method, Operators, Problem, Reactions, Tolerance,
+    Traits, Workspace,
 };
 use crate::{MeshMismatch, SceneError, Simulation};
 
@@ -107,6 +107,7 @@ compiled! {
             change: zeros(true),
             scratch: problem.loads.scratch(size),
             mean_velocity: zeros(matrices.any_lags()),
+            free: FreeStep::default(),
             solver_iterations: 0,
             balanced: None,
             compared: false,

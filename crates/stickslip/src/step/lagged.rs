@@ -1,5 +1,6 @@
 //! The elastic force, and that of viscosities that couple vertices in explicit steps.
 
+use super::free::seen;
 use super::local_steps::weights_after;
 use super::{Problem, Workspace};
 use crate::StepState;
@@ -8,18 +9,13 @@ impl<const C: usize> Workspace<C> {
     /// Subtracts the elastic force from the load; in explicit steps with lagged viscosities of `eta` times the stiffness their
     /// force, too, by the same product: `A (u + eta (u - u_o)/dt)` in a step of `dt` \[s\].
     pub(super) fn subtract_elastic(&mut self, p: &Problem<C>, start: &StepState<C>, dt: f64) {
-        let displacement = &self.end.displacement;
-        let relaxation = p.matrices.relaxation().filter(|_| self.lags());
-        let seen = match relaxation.map(|relaxation| relaxation / dt) {
-            Some(share) => {
-                let ends = displacement.iter().zip(&start.displacement);
-                for (seen, (new, old)) in self.mean_velocity.iter_mut().zip(ends) {
-                    *seen = new + (new - old) * share;
-                }
-                &self.mean_velocity
-            }
-            None => displacement,
-        };
+        let share = self.relaxation_share(p, dt);
+        let seen = seen(
+            &self.end.displacement,
+            start,
+            &mut self.mean_velocity,
+            share,
+        );
         let weights = weights_after(start.clock.step() + 1);
         let stiffness = p.matrices.stiffness();
         stiffness.multiply_add_levels(&weights, -1.0, seen, &mut self.load);
@@ -41,8 +37,14 @@ impl<const C: usize> Workspace<C> {
         }
     }
 
+    /// The relaxation time of lagged viscosities of which it is known, in steps of `dt` \[s\].
+    pub(super) fn relaxation_share(&self, p: &Problem<C>, dt: f64) -> Option<f64> {
+        let relaxation = p.matrices.relaxation().filter(|_| self.lags());
+        relaxation.map(|relaxation| relaxation / dt)
+    }
+
     /// Whether viscosities lag in the steps of the scheme.
-    fn lags(&self) -> bool {
+    pub(super) fn lags(&self) -> bool {
         !self.operators.implicit && !self.mean_velocity.is_empty()
     }
 }

@@ -3,6 +3,9 @@
 mod anderson;
 mod couple;
 mod finite;
+mod free;
+mod free_pass;
+mod free_step;
 mod highest_frequency;
 mod impact;
 mod initial_acceleration;
@@ -22,6 +25,7 @@ mod workspace;
 pub(crate) use anderson::Anderson;
 pub use couple::{Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, StepMaps};
 pub(crate) use finite::check_finite;
+pub(crate) use free_step::FreeStep;
 pub(crate) use highest_frequency::highest_eigenvalue;
 pub(crate) use initial_acceleration::InitialAcceleration;
 pub(crate) use local_steps::weights_after;

@@ -1,5 +1,7 @@
 //! Predictor and corrector of an update formula on the fields of a body.
 
+use std::ops::Range;
+
 use nalgebra::SVector;
 use stickslip_friction::modulus;
 use stickslip_solvers::{Divide, for_parts};
@@ -58,7 +60,10 @@ impl<const C: usize> Workspace<C> {
         (dt, update): (f64, StateUpdate),
         time: f64,
     ) -> Result<(), StepError> {
-        predict(formula, start, &mut self.end);
+        let free = self.predict_free(p, start, formula);
+        if !free {
+            predict(formula, start, &mut self.end);
+        }
         let prescribed = p.constraints.prescribe(time, &mut self.end.velocity);
         agreed(&p.ranks, prescribed)?;
         let fixed = &p.constraints.fixed;
@@ -85,6 +90,12 @@ impl<const C: usize> Workspace<C> {
         let position = !accelerates || formula.is_implicit_euler();
         let predicted = (&self.end.displacement[..], c_u);
         (self.contacts).bound_gaps(predicted, &start.velocity, position);
+        if free {
+            self.solve_free(p, start, formula, (dt, time));
+            if self.free.solved {
+                return Ok(());
+            }
+        }
         p.loads.fill(time, &mut self.load, &mut self.scratch);
         self.contacts.add_tractions(&mut self.load);
         self.subtract_elastic(p, start, dt);
@@ -139,7 +150,13 @@ impl<const C: usize> Workspace<C> {
             add_multiple(&mut end.displacement, c_u, &end.velocity);
         }
         let c_a = formula.acceleration.new_velocity;
-        add_multiple(&mut end.acceleration, c_a, &end.velocity);
+        if self.free.solved {
+            for vertex in self.free.others() {
+                end.acceleration[vertex] += end.velocity[vertex] * c_a;
+            }
+        } else {
+            add_multiple(&mut end.acceleration, c_a, &end.velocity);
+        }
         self.contacts
             .close_gaps(end, formula.acceleration.new_velocity > 0.0);
         self.contacts.accept(&mut end.contacts);
@@ -208,33 +225,49 @@ fn copy<'a, const C: usize>(
 /// `u^` and `a^`, and the velocity of the start; no acceleration without mass.
 fn predict<const C: usize>(formula: &UpdateFormula, start: &StepState<C>, end: &mut StepState<C>) {
     let (to_u, to_a) = (&formula.displacement, &formula.acceleration);
-    let (u, v, a) = (&start.displacement, &start.velocity, &start.acceleration);
     let fields = (
         &mut end.displacement[..],
         (&mut end.velocity[..], Part(&mut end.acceleration[..])),
     );
-    for_parts(
-        0..u.len(),
-        fields,
-        &|part, (new_u, (new_v, Part(new_a)))| {
-            let (u, v) = (&u[part.clone()], &v[part.clone()]);
-            for (((new_u, new_v), u), v) in new_u.iter_mut().zip(&mut *new_v).zip(u).zip(v) {
-                *new_u = u * to_u.displacement + v * to_u.velocity;
-                *new_v = *v;
-            }
-            // In the cache by now.
-            let Some(a) = a.get(part) else { return };
-            for (i, (new_a, a)) in new_a.iter_mut().zip(a).enumerate() {
-                new_u[i] += a * to_u.acceleration;
-                *new_a = u[i] * to_a.displacement + v[i] * to_a.velocity + a * to_a.acceleration;
-            }
-        },
-    );
+    for_parts(0..start.displacement.len(), fields, &|part,
+                                                     (
+        new_u,
+        (new_v, Part(new_a)),
+    )| {
+        new_v.copy_from_slice(&start.velocity[part.clone()]);
+        predict_part(formula, start, part, [new_u, new_a]);
+    });
     for (i, w) in start.algorithmic.iter().enumerate() {
         end.displacement[i] += w * to_u.algorithmic;
         if let Some(acceleration) = end.acceleration.get_mut(i) {
             *acceleration += w * to_a.algorithmic;
         }
+    }
+}
+
+/// `u^` and `a^` of a part of the vertices, without algorithmic accelerations; no acceleration for an empty one.
+#[inline(always)]
+pub(super) fn predict_part<const C: usize>(
+    formula: &UpdateFormula,
+    start: &StepState<C>,
+    part: Range<usize>,
+    [new_u, new_a]: [&mut [SVector<f64, C>]; 2],
+) {
+    let (to_u, to_a) = (&formula.displacement, &formula.acceleration);
+    let (u, v) = (
+        &start.displacement[part.clone()],
+        &start.velocity[part.clone()],
+    );
+    for ((new_u, u), v) in new_u.iter_mut().zip(u).zip(v) {
+        *new_u = u * to_u.displacement + v * to_u.velocity;
+    }
+    // In the cache by now.
+    let Some(a) = start.acceleration.get(part) else {
+        return;
+    };
+    for (i, (new_a, a)) in new_a.iter_mut().zip(a).enumerate() {
+        new_u[i] += a * to_u.acceleration;
+        *new_a = u[i] * to_a.displacement + v[i] * to_a.velocity + a * to_a.acceleration;
     }
 }
 

@@ -6,6 +6,7 @@ use nalgebra::SVector;
 use stickslip_solvers::{Basis, MeshId, Ranks};
 use stickslip_time::{RateScheme, UpdateFormula};
 
+use super::free_step::FreeStep;
 use super::initial_acceleration::InitialAcceleration;
 use super::method::{Method, Tolerance};
 use super::operators::Operators;
@@ -57,6 +58,8 @@ pub(crate) struct Workspace<const C: usize> {
     /// The velocity that lagged viscosities see [m/s], or the displacement \[m\] that has their force, too; empty without
     /// them.
     pub(crate) mean_velocity: Vec<SVector<f64, C>>,
+    /// What is known of the vertices without friction before the velocity problem is solved.
+    pub(crate) free: FreeStep<C>,
     pub(crate) solver_iterations: usize,
     /// None if friction weakens nowhere.
     pub(crate) certificate: Option<Box<Certificate<C>>>,
@@ -85,6 +88,7 @@ impl<const C: usize> Clone for Workspace<C> {
             change: self.change.clone(),
             scratch: self.scratch.clone(),
             mean_velocity: self.mean_velocity.clone(),
+            free: self.free.clone(),
             solver_iterations: self.solver_iterations,
             certificate: self.certificate.clone(),
             reactions: self.reactions.clone(),

@@ -21,6 +21,8 @@ struct VelocityProblem<'a, const C: usize> {
     growth: f64,
     /// Whether the change of the velocity is one of this step.
     changed: bool,
+    /// Whether a problem has been solved since the velocity was the last accepted one.
+    moved: bool,
     /// The operator is that of the last step, and probably that of the next: the preparation for measured changes pays.
     recurs: bool,
     passages: Passages,
@@ -45,6 +47,7 @@ impl<const C: usize> Workspace<C> {
             growth: if last > 0.0 && single { dt / last } else { 0.0 },
             w: self,
             changed: false,
+            moved: false,
             recurs: !compared && (last == dt || last == 0.0),
             passages: Passages {
                 // Skew forces are loads.
@@ -92,7 +95,12 @@ impl<const C: usize> VelocityProblem<'_, C> {
         let velocity = &mut w.end.velocity;
         let problem = boundary(self.p, &w.load, &w.contacts);
         self.passages.behind = true;
-        let solved = w.operators.body.minimize(&problem, goal, velocity);
+        self.moved = true;
+        let body = &mut w.operators.body;
+        let solved = match w.free.solved {
+            true => body.minimize_others(&problem, goal, velocity),
+            false => body.minimize(&problem, goal, velocity),
+        };
         let report = agreed(&self.p.ranks, solved.map_err(Into::into))?;
         w.solver_iterations += report.work();
         Ok(())
@@ -125,7 +133,11 @@ impl<const C: usize> VelocityProblem<'_, C> {
     /// Applies a function to velocity and change at the vertices that a velocity problem moves.
     fn for_moving(&mut self, f: impl Fn(&mut SVector<f64, C>, &mut SVector<f64, C>)) {
         let (velocity, change) = (&mut self.w.end.velocity, &mut self.w.change);
-        if self.w.operators.body.condenses() {
+        if self.w.free.solved {
+            for vertex in self.w.free.others() {
+                f(&mut velocity[vertex], &mut change[vertex]);
+            }
+        } else if self.w.operators.body.condenses() {
             for &vertex in &self.w.contacts.vertices {
                 f(&mut velocity[vertex], &mut change[vertex]);
             }
@@ -136,8 +148,37 @@ impl<const C: usize> VelocityProblem<'_, C> {
         }
     }
 
+    /// Sets the change of free vertices by the next problem: from the last accepted velocity, if it is the first one, else zero.
+    fn change_free(&mut self, first: bool) {
+        let w = &mut *self.w;
+        for part in w.free.ranges(w.change.len()) {
+            if first {
+                let ends = w.end.velocity[part.clone()]
+                    .iter()
+                    .zip(&self.start.velocity[part.clone()]);
+                for (change, (new, old)) in w.change[part].iter_mut().zip(ends) {
+                    *change = new - old;
+                }
+            } else {
+                w.change[part].fill(SVector::zeros());
+            }
+        }
+    }
+
     /// Resets the unknowns to the last accepted velocity.
     fn restart(&mut self) {
+        self.moved = false;
+        if self.w.free.solved {
+            // The free vertices have the velocity of every solution.
+            for vertex in self.w.free.others() {
+                let from = &self.start.velocity[vertex];
+                let fixed = &self.p.constraints.fixed[vertex];
+                for c in (0..C).filter(|&c| !fixed[c]) {
+                    self.w.end.velocity[vertex][c] = from[c];
+                }
+            }
+            return;
+        }
         let velocities = self.w.end.velocity.iter_mut().zip(&self.start.velocity);
         for ((velocity, from), fixed) in velocities.zip(&self.p.constraints.fixed) {
             for c in (0..C).filter(|&c| !fixed[c]) {
@@ -186,6 +227,9 @@ impl<const C: usize> StepMaps for VelocityProblem<'_, C> {
         let lead = if self.changed { lead } else { 0.0 };
         self.changed = true;
         self.load(true)?;
+        if self.w.free.solved {
+            self.change_free(!self.moved);
+        }
         self.for_moving(|velocity, change| {
             let previous = *velocity;
             *velocity += *change * lead;
