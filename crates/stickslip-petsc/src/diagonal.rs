@@ -98,6 +98,10 @@ impl<const C: usize> NonsmoothSolver<DistributedElements<C>, C> for DistributedD
         self.solve(energy, stopping, v)
     }
 
+    fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
+        self.own.is_definite_with(slopes)
+    }
+
     fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<DistributedElements<C>, C>> {
         Box::new(self.clone())
     }
@@ -116,6 +120,10 @@ impl<const C: usize> NonsmoothSolver<DistributedMatrix<C>, C> for DistributedDia
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
         self.solve(energy, stopping, v)
+    }
+
+    fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
+        self.own.is_definite_with(slopes)
     }
 
     fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<DistributedMatrix<C>, C>> {

@@ -40,6 +40,20 @@ pub(crate) fn inverse<const C: usize>(
     Some(inverse)
 }
 
+/// Whether a block that is positive definite, with its fixed components [decoupled](decouple), stays so with a number added on
+/// the diagonal of the free ones.
+#[cfg(feature = "sparse")]
+pub(crate) fn is_definite_with<const C: usize>(
+    added: f64,
+    block: &SMatrix<f64, C, C>,
+    fixed: &[bool; C],
+) -> bool {
+    let free = |r: usize, c: usize| r == c && !fixed[r];
+    let sum =
+        SMatrix::<f64, C, C>::from_fn(|r, c| block[(r, c)] + if free(r, c) { added } else { 0.0 });
+    added >= 0.0 || sum.cholesky().is_some()
+}
+
 /// The inverse of the diagonal block of a vertex on its free components, zero on the fixed ones.
 ///
 /// # Errors

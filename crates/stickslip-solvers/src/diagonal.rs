@@ -1,16 +1,19 @@
 //! A diagonal operator: every vertex is a separate problem, or every pair across a fault.
 
+mod pair;
+
 use std::ops::Range;
 
 use nalgebra::{SMatrix, SVector};
 
 use stickslip_core::compiled;
 
-use crate::block::{decouple, inverse};
+use crate::block::{decouple, inverse, is_definite_with};
 use crate::block_matrix::Rows;
 use crate::field::clear_masked;
-use crate::parts::{gather_contact, sum_parts};
-use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping};
+use crate::parts::{for_contact, sum_parts};
+use crate::{BlockMatrix, Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
+use pair::Pair;
 
 /// Solves a block diagonal problem exactly, one vertex after the other. An explicit scheme with a lumped mass has such
 /// a problem. Between two sides of a fault the blocks are those of pairs: with the masses `m_+` and `m_-`
@@ -24,8 +27,9 @@ pub struct Diagonal<const C: usize> {
     inverses: Vec<SVector<f64, C>>,
     /// The vertices whose inverse block is not diagonal, increasing, and it.
     coupled: Vec<(usize, SMatrix<f64, C, C>)>,
-    /// The blocks of the frictional vertices.
+    /// The blocks of the frictional vertices, and their fixed components.
     blocks: Vec<SMatrix<f64, C, C>>,
+    fixed: Vec<[bool; C]>,
     /// The vertices of `blocks` that are no part of a pair, and their velocities.
     single: Vec<usize>,
     minimizers: Vec<SVector<f64, C>>,
@@ -37,78 +41,6 @@ pub struct Diagonal<const C: usize> {
     prescribed: Vec<SVector<f64, C>>,
     /// The vertices with friction, a fixed component, an inverse that is not diagonal, or a partner, increasing.
     others: Vec<usize>,
-}
-
-/// Two vertices that are coupled to each other alone.
-#[derive(Debug, Clone)]
-struct Pair<const C: usize> {
-    /// The one with friction, if any has, and its partner.
-    vertices: [usize; 2],
-    /// The position of the first among the frictional vertices.
-    position: Option<usize>,
-    blocks: [SMatrix<f64, C, C>; 2],
-    /// The block of the first row and the second column.
-    coupling: SMatrix<f64, C, C>,
-    /// The inverse of the partner's block, and of the Schur complement of the first, on free components.
-    inverses: [SMatrix<f64, C, C>; 2],
-    /// The Schur complement, decoupled from fixed components.
-    schur: SMatrix<f64, C, C>,
-}
-
-impl<const C: usize> Pair<C> {
-    fn new(
-        energy: &Energy<'_, BlockMatrix<C>, C>,
-        vertices: [usize; 2],
-        coupling: SMatrix<f64, C, C>,
-    ) -> Result<Self, SolveError> {
-        let [i, j] = vertices;
-        let blocks = vertices.map(|vertex| energy.operator.diagonal_block(vertex));
-        let position = |vertex: usize| energy.vertices.binary_search(&vertex).ok();
-        let partner = inverse(&blocks[1], &energy.fixed[j])
-            .ok_or(SolveError::IndefiniteBlock { vertex: j })?;
-        let schur = blocks[0] - coupling * partner * coupling.transpose();
-        let own =
-            inverse(&schur, &energy.fixed[i]).ok_or(SolveError::IndefiniteBlock { vertex: i })?;
-        Ok(Self {
-            vertices,
-            position: position(i),
-            blocks,
-            coupling,
-            inverses: [partner, own],
-            schur: decouple(&schur, &energy.fixed[i]),
-        })
-    }
-
-    /// The velocities of both, with the fixed components of `v`.
-    fn solve(
-        &self,
-        energy: &Energy<'_, BlockMatrix<C>, C>,
-        v: &[SVector<f64, C>],
-    ) -> [SVector<f64, C>; 2] {
-        let [i, j] = self.vertices;
-        let held = self.vertices.map(|vertex| {
-            SVector::<f64, C>::from_fn(|c, _| {
-                if energy.fixed[vertex][c] {
-                    v[vertex][c]
-                } else {
-                    0.0
-                }
-            })
-        });
-        let (own, partner) = (self.blocks[0], self.blocks[1]);
-        let mut right = [
-            energy.load[i] - own * held[0] - self.coupling * held[1],
-            energy.load[j] - partner * held[1] - self.coupling.tr_mul(&held[0]),
-        ];
-        right[0] -= self.coupling * (self.inverses[0] * right[1]);
-        clear_masked(&mut right[0], &energy.fixed[i]);
-        let first = match self.position {
-            Some(k) => energy.potentials.minimize(k, &self.schur, &right[0]),
-            None => self.inverses[1] * right[0],
-        };
-        let second = self.inverses[0] * (right[1] - self.coupling.tr_mul(&first));
-        [first + held[0], second + held[1]]
-    }
 }
 
 impl<const C: usize> Diagonal<C> {
@@ -127,6 +59,16 @@ impl<const C: usize> Diagonal<C> {
     #[cfg(feature = "fem")]
     pub(crate) fn others(&self) -> &[usize] {
         &self.others
+    }
+
+    /// Whether all blocks stay positive definite with a number added on the diagonal of each frictional vertex: a matrix of
+    /// blocks is if each of them is.
+    pub(crate) fn is_definite(&self, slopes: &[f64]) -> bool {
+        let mut single = self.single.iter();
+        let mut pairs = self.pairs.iter();
+        slopes.len() == self.blocks.len()
+            && single.all(|&k| is_definite_with(slopes[k], &self.blocks[k], &self.fixed[k]))
+            && pairs.all(|pair| pair.is_definite(slopes, &self.fixed))
     }
 
     /// The minimiser; with `all` at all vertices, without at those that are not free.
@@ -157,12 +99,7 @@ impl<const C: usize> Diagonal<C> {
                 *minimizer = energy.potentials.minimize(k, &blocks[k], &force) + held;
             }
         };
-        gather_contact(
-            single.len(),
-            &mut self.minimizers[..],
-            &minimize,
-            &|(), ()| (),
-        );
+        for_contact(single.len(), &mut self.minimizers[..], &minimize);
         for (held, &i) in self.prescribed.iter_mut().zip(&self.held) {
             *held = prescribed(i, &v[i]);
         }
@@ -282,6 +219,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
         }
         self.paired.resize(self.pairs.len(), [SVector::zeros(); 2]);
         self.blocks.clear();
+        self.fixed.clear();
         self.single.clear();
         for (k, &vertex) in energy.vertices.iter().enumerate() {
             let row = rows.range(vertex);
@@ -290,6 +228,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
             }
             let block = &rows.values[row.start];
             self.blocks.push(decouple(block, &energy.fixed[vertex]));
+            self.fixed.push(energy.fixed[vertex]);
         }
         self.minimizers.resize(self.single.len(), SVector::zeros());
         self.prescribed.resize(self.held.len(), SVector::zeros());
@@ -312,6 +251,10 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
         self.solve(energy, stopping.norm, v, true)
+    }
+
+    fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
+        Some(self.is_definite(slopes))
     }
 
     fn into_object(self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {

@@ -197,7 +197,7 @@ pub use multigrid_solver::MultigridSolver;
 pub use normal_stress_change::NormalStressChange;
 pub use operator::Operator;
 #[doc(hidden)]
-pub use parts::{Divide, for_parts, sum_parts};
+pub use parts::{Divide, for_contact, for_parts, gather_contact, sum_parts};
 pub use point::Point;
 pub use potentials::Potentials;
 pub use product_by_parts::{BeginPart, EndPart, ProductByParts};

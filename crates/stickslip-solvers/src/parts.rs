@@ -8,7 +8,6 @@ use std::ops::Range;
 /// Vertices per part: enough work for a thread.
 const PART: usize = 8192;
 /// Frictional vertices per part, each with evaluations of laws.
-#[cfg(feature = "sparse")]
 const CONTACT_PART: usize = 512;
 
 /// Data that can be cut in two, given the number of vertices and of parts before the cut.
@@ -84,7 +83,6 @@ pub(crate) fn inside<R: Send>(vertices: usize, work: impl FnOnce() -> R + Send) 
 }
 
 /// Works in a thread of the pool: nested parallel work is not handed over to the pool each time.
-#[cfg(feature = "sparse")]
 pub(crate) fn enter<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     #[cfg(feature = "rayon")]
     if rayon::current_num_threads() > 1 && rayon::current_thread_index().is_none() {
@@ -137,8 +135,7 @@ pub fn sum_parts<F: Divide>(
 
 /// The results of `work(places, fields)` on parts of a contact, whose vertices cost more than others; places are
 /// positions among the frictional vertices. `both` combines the results of two neighbouring parts.
-#[cfg(feature = "sparse")]
-pub(crate) fn gather_contact<F: Divide, T: Send>(
+pub fn gather_contact<F: Divide, T: Send>(
     places: usize,
     fields: F,
     work: &(impl Fn(Range<usize>, F) -> T + Sync),
@@ -149,8 +146,12 @@ pub(crate) fn gather_contact<F: Divide, T: Send>(
     })
 }
 
+/// `work(places, fields)` on parts of a contact, see [`gather_contact`].
+pub fn for_contact<F: Divide>(places: usize, fields: F, work: &(impl Fn(Range<usize>, F) + Sync)) {
+    gather_contact(places, fields, work, &|(), ()| ());
+}
+
 /// Works in a thread of the pool, if a contact of so many vertices is cut into parts.
-#[cfg(feature = "sparse")]
 pub(crate) fn inside_contact<R: Send>(places: usize, work: impl FnOnce() -> R + Send) -> R {
     if places > CONTACT_PART {
         enter(work)

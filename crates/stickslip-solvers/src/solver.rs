@@ -94,6 +94,14 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
         None
     }
 
+    /// Whether the prepared operator stays positive definite with `slopes`, one number per frictional vertex, added on the
+    /// diagonal of its free components [N s/m]; `None` if the solver cannot tell without solving, which leaves the question to
+    /// conjugate gradients. By default it is that of [`frictional`](Self::frictional).
+    fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
+        let frictional = self.frictional()?;
+        Some(frictional.is_definite_with(slopes))
+    }
+
     /// Sets the basis of later operators, loads, potentials and velocities. A solver whose knowledge of the body is
     /// its operator has nothing to do; one with transfers from other meshes has to change these.
     fn change_basis(&mut self, _basis: &Basis<C>) {}
@@ -151,6 +159,10 @@ where
 
     fn free_vertices(&mut self) -> Option<&mut dyn FreeVertices<Op, C>> {
         (**self).free_vertices()
+    }
+
+    fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
+        (**self).is_definite_with(slopes)
     }
 
     fn change_basis(&mut self, basis: &Basis<C>) {

@@ -46,7 +46,6 @@ pub use take::take;
 pub use weakening::{PATCH, PATCHES, SHEAR, SLIP_DISTANCE, cohesive_zone, friction};
 
 use clap::{Parser, ValueEnum};
-use stickslip::nalgebra::SVector;
 
 use crate::cli::{non_negative, positive};
 use crate::output::Files;
@@ -119,16 +118,13 @@ impl Arguments {
     }
 }
 
-/// Scales a load to a time: it grows within 1 s.
-pub fn grow<const C: usize>(time: f64, whole: &[SVector<f64, C>], load: &mut [SVector<f64, C>]) {
-    let share = if time <= 0.0 {
+/// The share of the nucleating load at a time \[s\]: it grows within 1 s.
+pub fn growth(time: f64) -> f64 {
+    if time <= 0.0 {
         0.0
     } else if time < 1.0 {
         ((time - 1.0).powi(2) / (time * (time - 2.0))).exp()
     } else {
         1.0
-    };
-    for (load, whole) in load.iter_mut().zip(whole) {
-        *load = whole * share;
     }
 }

@@ -71,7 +71,7 @@ fn of_rate_and_state(arguments: &Arguments, law: Law) -> Result<(P1<2>, Simulati
         .fix(&middle, Components::Y)
         .fix(&image, Components::Y)
         .with_load(balance)
-        .with_load_history(move |time, load| super::grow(time, &pull, load))
+        .with_scaled_load(pull, super::growth)
         .with_velocity(vec![
             Vector2::new(law.initial_rate(), 0.0);
             space.vertex_count()

@@ -20,7 +20,7 @@ use super::report::{Outcome, report};
 use super::rock::{Rock, longest_edge};
 use crate::cli::Problem;
 use crate::progress::Progress;
-use crate::rupture::grow;
+use crate::rupture::growth;
 
 /// The edges of cells in the length over which friction weakens that resolve it (S. Day et al., J. Geophys. Res. 110 (2005)).
 const RESOLVED: f64 = 3.0;
@@ -144,7 +144,7 @@ fn scene(
         .with_mass(mass)
         .with_viscosity(dashpot(space, &rock.absorbing()?, |_| impedance)?)
         .with_load(prestress.balance.clone())
-        .with_load_history(move |time, load| grow(time, &pull, load))
+        .with_scaled_load(pull, growth)
         .with_velocity(vec![
             Vector3::new(problem.initial_rate(), 0.0, 0.0);
             space.vertex_count()

@@ -40,6 +40,10 @@ impl<const C: usize> NonsmoothSolver<ElementOperator<C>, C> for Diagonal<C> {
         Some(self)
     }
 
+    fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
+        Some(self.is_definite(slopes))
+    }
+
     fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<ElementOperator<C>, C>> {
         Box::new(self.clone())
     }

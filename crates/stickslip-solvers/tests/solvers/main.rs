@@ -8,6 +8,7 @@ mod common;
 mod condensed;
 mod conformance;
 mod convergence;
+mod definite;
 mod dense;
 mod descent;
 mod elements;

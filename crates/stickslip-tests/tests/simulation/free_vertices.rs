@@ -51,12 +51,13 @@ struct Setting {
     /// The relaxation time of a viscosity by the product of the stiffness; of one by its own for negative ones.
     relaxation: Option<f64>,
     weight: bool,
-    pull: bool,
+    /// Loads that depend on time: none, one of all vertices, one of fixed shape at some, or both.
+    pull: usize,
     held: bool,
     coupling: usize,
     speed: f64,
-    /// A time, and a load at a vertex from then on.
-    poison: Option<(f64, f64)>,
+    /// A time, and a load at a vertex from then on; of fixed shape or not.
+    poison: Option<(f64, f64, bool)>,
 }
 
 impl Default for Setting {
@@ -67,7 +68,7 @@ impl Default for Setting {
             levels: 3,
             relaxation: None,
             weight: true,
-            pull: false,
+            pull: 0,
             held: true,
             coupling: 0,
             speed: 0.1,
@@ -81,7 +82,7 @@ fn settings() -> impl Strategy<Value = Setting> {
     let body = (1..5usize, 1..4usize, 0.05..0.5, 1..4usize, viscosity);
     let data = (
         any::<bool>(),
-        any::<bool>(),
+        0..4usize,
         any::<bool>(),
         0..5usize,
         1e-6..1.0,
@@ -152,19 +153,26 @@ fn sliding(
     if setting.weight {
         scene = scene.with_load(space.interpolate(|x| Vector2::new(0.0, -0.01 * (1.0 + x[0]))));
     }
-    if setting.pull {
+    if setting.pull >= 2 {
+        let pull = space.interpolate(|x| Vector2::new(0.02 * (x[0] - 1.0).max(0.0), 0.0));
+        scene = scene.with_scaled_load(pull, |time| 1.0 + time.sin());
+    }
+    if setting.pull % 2 == 1 {
         scene = scene.with_load_history(|time, load| {
             for (i, load) in load.iter_mut().enumerate() {
                 load[0] += 0.01 * (time + i as f64).sin();
             }
         });
     }
-    if let Some((from, value)) = setting.poison {
-        scene = scene.with_load_history(move |time, load| {
-            if time > from {
-                load[20][1] = value;
-            }
-        });
+    if let Some((from, value, scaled)) = setting.poison {
+        let poison = move |time| if time > from { value } else { 0.0 };
+        scene = if scaled {
+            let mut unit = vec![Vector2::zeros(); space.vertex_count()];
+            unit[20] = Vector2::repeat(1.0);
+            scene.with_scaled_load(unit, poison)
+        } else {
+            scene.with_load_history(move |time, load| load[20][1] = poison(time))
+        };
     }
     if setting.held {
         let end = side(|x| x[0] == 2.0)?;
@@ -208,9 +216,13 @@ fn limit(setting: &Setting) -> Outcome<f64> {
 #[test]
 fn what_is_not_finite_is_named() -> Outcome {
     let dt = 0.5 * limit(&Setting::default())?;
-    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+    let values = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    for (value, scaled) in values
+        .into_iter()
+        .flat_map(|value| [(value, false), (value, true)])
+    {
         let setting = Setting {
-            poison: Some((4.5 * dt, value)),
+            poison: Some((4.5 * dt, value, scaled)),
             ..Setting::default()
         };
         let mut own = sliding(&setting, Diagonal::new())?;

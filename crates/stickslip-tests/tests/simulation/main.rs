@@ -43,6 +43,7 @@ mod reduced;
 mod rest;
 mod restart;
 mod ruina_and_others;
+mod scaled_loads;
 mod second_order;
 mod self_similar;
 mod slider_reference;

@@ -134,9 +134,9 @@ pub(crate) trait Body<const C: usize>: Send {
     /// Moves the interior after the frictional vertices, if the solver condenses.
     fn extend(&mut self, v: &mut [SVector<f64, C>]) -> Result<(), SolveError>;
 
-    /// Whether `B` stays positive definite with slopes added at the frictional vertices; `None` if the solver does not
-    /// condense.
-    fn is_condensed_definite_with(&mut self, slopes: &[f64]) -> Option<bool>;
+    /// Whether `B` stays positive definite with slopes added at the frictional vertices; `None` if the solver cannot tell. In
+    /// several processes, with the rows of this one.
+    fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool>;
 
     /// Replaces the solver.
     fn set_solver(&mut self, solver: AnySolver) -> Result<(), SceneError>;

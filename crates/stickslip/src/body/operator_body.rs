@@ -182,9 +182,8 @@ impl<Op: Operator<C>, const C: usize> Body<C> for OperatorBody<Op, C> {
         frictional.map_or(Ok(()), |solver| solver.extend(v))
     }
 
-    fn is_condensed_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
-        let solver = self.solver.frictional()?;
-        Some(solver.is_definite_with(slopes))
+    fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
+        self.solver.is_definite_with(slopes)
     }
 
     fn set_solver(&mut self, solver: AnySolver) -> Result<(), SceneError> {

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip_friction::{Nodal, modulus};
-use stickslip_solvers::Frames;
+use stickslip_solvers::{Frames, for_contact};
 
 use super::fields::Fields;
 use super::shear::check_tangential;
@@ -166,6 +166,21 @@ impl<const C: usize> DiscreteContact<C> {
     #[inline]
     pub(crate) fn slip_rate(&self, k: usize, velocity: &[SVector<f64, C>]) -> f64 {
         modulus(&self.tangential(k, &velocity[self.part.vertices[k]]))
+    }
+
+    /// The memory of the slip rates with those of velocities; `None` if nothing depends on them.
+    pub(super) fn rates_of(
+        &mut self,
+        velocity: impl Fn(usize) -> SVector<f64, C> + Sync,
+    ) -> Option<Vec<f64>> {
+        let mut rates = self.rates.take()?;
+        for_contact(rates.len(), &mut rates[..], &|places, rates| {
+            for (rate, k) in rates.iter_mut().zip(places) {
+                let own = velocity(self.part.vertices[k]);
+                *rate = modulus(&self.tangential(k, &own));
+            }
+        });
+        Some(rates)
     }
 
     /// The largest slip rate [m/s].

@@ -1,7 +1,6 @@
 //! The states of all contacts during a step.
 
 use nalgebra::SVector;
-use stickslip_friction::modulus;
 
 use super::ContactSet;
 use crate::laws::StateStep;
@@ -15,7 +14,7 @@ impl<const C: usize> ContactSet<C> {
         step: StateStep,
         time: f64,
         from: &StepState<C>,
-        velocity: impl Fn(usize) -> SVector<f64, C>,
+        velocity: impl Fn(usize) -> SVector<f64, C> + Sync,
     ) -> Result<(), StepError> {
         self.take_normal_stresses(time, from);
         self.set_time(time)?;
@@ -28,7 +27,7 @@ impl<const C: usize> ContactSet<C> {
         step: StateStep,
         time: f64,
         from: &[ContactState<C>],
-        velocity: impl Fn(usize) -> SVector<f64, C>,
+        velocity: impl Fn(usize) -> SVector<f64, C> + Sync,
     ) -> Result<(), StepError> {
         self.set_time(time)?;
         self.begin_states(step, from, velocity)
@@ -38,14 +37,10 @@ impl<const C: usize> ContactSet<C> {
         &mut self,
         step: StateStep,
         from: &[ContactState<C>],
-        velocity: impl Fn(usize) -> SVector<f64, C>,
+        velocity: impl Fn(usize) -> SVector<f64, C> + Sync,
     ) -> Result<(), StepError> {
         for (contact, from) in self.contacts.iter_mut().zip(from) {
-            let mut rates = contact.rates.take();
-            for (k, rate) in rates.iter_mut().flatten().enumerate() {
-                let from = velocity(contact.part.vertices[k]);
-                *rate = modulus(&contact.tangential(k, &from));
-            }
+            let rates = contact.rates_of(&velocity);
             for changes in contact.changes.iter_mut().flatten() {
                 changes.fill(0.0);
             }
@@ -90,11 +85,7 @@ impl<const C: usize> ContactSet<C> {
     /// contacts.
     pub(crate) fn propose(&mut self, velocity: &[SVector<f64, C>]) -> Result<f64, StepError> {
         for contact in &mut self.contacts {
-            let mut rates = contact.rates.take();
-            for (k, rate) in rates.iter_mut().flatten().enumerate() {
-                *rate = contact.slip_rate(k, velocity);
-            }
-            contact.rates = rates;
+            contact.rates = contact.rates_of(|vertex| velocity[vertex]);
             let (Some(rates), Some(changes)) = (&contact.rates, &mut contact.changes) else {
                 continue;
             };

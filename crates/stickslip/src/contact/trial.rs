@@ -1,5 +1,9 @@
 //! The states of a contact in the current step, and friction as a function of the slip rate alone.
 
+mod propose;
+
+pub(crate) use propose::Refused;
+
 use std::sync::Arc;
 
 use stickslip_friction::Response;
@@ -12,12 +16,6 @@ use crate::laws::{
     CappedLaws, ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change,
 };
 use crate::scene::ErasedLaws;
-
-/// A slip rate without a proposal: the state law has no solution there, or a value is not finite.
-pub(crate) enum Refused {
-    State(StateError),
-    Value(Followed),
-}
 
 /// The states of a contact in a step: frozen for a fixed point, or condensed, each a function `alpha(V)` of its slip
 /// rate by the step's own state update. Vertices are counted along the contact.
@@ -211,26 +209,6 @@ impl Trial {
     #[inline]
     fn followed_or_nan(&self, k: usize, slip_rate: f64) -> Followed {
         self.followed(k, slip_rate).unwrap_or(Followed::NONE)
-    }
-
-    /// Proposes the states of slip rates; writes their distances from those in use to `changes`. An error carries its
-    /// place in the contact.
-    pub(crate) fn propose(
-        &mut self,
-        rates: &[f64],
-        changes: &mut [f64],
-    ) -> Result<(), (usize, Refused)> {
-        for (k, (&rate, change)) in rates.iter().zip(changes).enumerate() {
-            let followed = self.followed(k, rate);
-            let followed = followed.map_err(|source| (k, Refused::State(source)))?;
-            if !(followed.state.is_finite() && followed.coefficient.is_finite()) {
-                return Err((k, Refused::Value(followed)));
-            }
-            *change = followed.state - self.states[k];
-            self.proposed[k] = followed.state;
-            self.slopes[k] = (rate, followed.rate_slope);
-        }
-        Ok(())
     }
 
     /// Moves the states in use by the share `relaxation` towards the proposed ones.

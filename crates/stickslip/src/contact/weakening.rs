@@ -1,7 +1,10 @@
 //! Changes of friction with the slip rate, and its weakening.
 
+use std::ops::Range;
+
 use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, modulus};
+use stickslip_solvers::{for_contact, gather_contact};
 
 use super::{ContactSet, Trial};
 use crate::numerics::NUMERICS;
@@ -22,29 +25,37 @@ impl<const C: usize> ContactSet<C> {
         now: &[SVector<f64, C>],
         slopes: &mut [f64],
     ) -> usize {
-        let mut weakening = 0;
-        let mut apart = false;
-        for (k, slope) in slopes.iter_mut().enumerate() {
-            let (start, end) = (self.rate(k, before), self.rate(k, now));
-            if start == 0.0 && end == 0.0 {
-                // It rests, and there is no rate in between.
-                *slope = 0.0;
-                continue;
+        let spacing = NUMERICS.slope_spacing;
+        let this = &*self;
+        let at_ends = |places: Range<usize>, slopes: &mut [f64]| {
+            let (mut weakening, mut apart) = (0, false);
+            for (k, slope) in places.zip(slopes) {
+                let (start, end) = (this.rate(k, before), this.rate(k, now));
+                if start == 0.0 && end == 0.0 {
+                    // It rests, and there is no rate in between.
+                    *slope = 0.0;
+                    continue;
+                }
+                let here = this.slope_at_end(k, end);
+                weakening += usize::from(here < 0.0);
+                *slope = here.min(0.0);
+                apart |= start > spacing * end || end > spacing * start;
             }
-            let here = self.slope_at_end(k, end);
-            weakening += usize::from(here < 0.0);
-            *slope = here.min(0.0);
-            let spacing = NUMERICS.slope_spacing;
-            apart |= start > spacing * end || end > spacing * start;
-        }
+            (weakening, apart)
+        };
+        let both = |a: (usize, bool), b: (usize, bool)| (a.0 + b.0, a.1 || b.1);
+        let (weakening, apart) = gather_contact(slopes.len(), &mut *slopes, &at_ends, &both);
         if apart {
             self.eliminate(true);
-            for (k, slope) in slopes.iter_mut().enumerate() {
-                let (start, end) = (self.rate(k, before), self.rate(k, now));
-                if start > 0.0 || end > 0.0 {
-                    *slope = slope.min(self.least_slope(k, start, end));
+            let this = &*self;
+            for_contact(slopes.len(), slopes, &|places, slopes| {
+                for (k, slope) in places.zip(slopes) {
+                    let (start, end) = (this.rate(k, before), this.rate(k, now));
+                    if start > 0.0 || end > 0.0 {
+                        *slope = slope.min(this.least_slope(k, start, end));
+                    }
                 }
-            }
+            });
             self.eliminate(false);
         }
         weakening

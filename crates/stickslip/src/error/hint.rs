@@ -4,7 +4,8 @@ use super::{ErrorOf, Limit, LocalError, StepError};
 
 pub(super) const SHORTER: &str = "reduce dt";
 pub(super) const MINIMISES: &str = "`check_nonsmooth_solver` tells whether it minimises";
-pub(super) const LOAD: &str = "check functions of with_load_history, and plate rates";
+pub(super) const LOAD: &str =
+    "check functions of with_load_history and with_scaled_load, and plate rates";
 pub(super) const OPENING: &str = "Contact::allow_opening lets it open, unless its normal motion is prescribed or contacts meet there that do not all open along one normal";
 pub(super) const PRESSURE: &str =
     "Contact::allow_opening or Contact::with_least_normal_stress takes it";

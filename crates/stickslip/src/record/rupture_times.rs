@@ -5,6 +5,7 @@ use std::io;
 use super::check::{check_index, positive, require};
 use super::seas::{Rows, SeasHeader};
 use super::threshold::time_of;
+use crate::sums::largest;
 use crate::{FileError, SceneError, Snapshot};
 
 /// The time of a vertex that an event does not reach, after its onset \[s\].
@@ -48,6 +49,9 @@ pub struct RuptureTimes {
     /// The time \[s\] and the slip rates [m/s] of the last step.
     time: f64,
     rates: Vec<f64>,
+    /// Those of the step shown, until it is recorded.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    now: Vec<f64>,
     armed: bool,
     under_way: Option<Rupture>,
     events: Vec<Rupture>,
@@ -91,6 +95,7 @@ impl RuptureTimes {
             points: (0..seen.len()).map(|k| seen.point(k)).collect(),
             time: at.time,
             rates: vec![0.0; seen.len()],
+            now: Vec::with_capacity(seen.len()),
             armed: true,
             under_way: None,
             events: Vec::new(),
@@ -106,18 +111,20 @@ impl RuptureTimes {
     /// For a step of a scene with fewer contacts or vertices than the recorder's own.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
         let contact = at.contact(self.contact);
-        let largest = contact.max_slip_rate();
+        let vertices = 0..self.rates.len();
+        self.now.clear();
+        (self.now).extend(vertices.clone().map(|k| contact.slip_rate(k)));
+        let largest = largest(self.now.iter().copied());
         let passes = |k: usize| {
-            let rate = contact.slip_rate(k);
-            let (from, to) = ((self.time, self.rates[k]), (at.time, rate));
-            (rate >= self.threshold).then(|| time_of(self.threshold, from, to))
+            let (from, to) = ((self.time, self.rates[k]), (at.time, self.now[k]));
+            (to.1 >= self.threshold).then(|| time_of(self.threshold, from, to))
         };
         if self.under_way.is_none() && self.armed && largest >= self.threshold {
             self.armed = false;
-            let first = (0..contact.len()).filter_map(passes).min_by(f64::total_cmp);
+            let first = vertices.filter_map(passes).min_by(f64::total_cmp);
             self.under_way = Some(Rupture {
                 onset: first.unwrap_or(at.time),
-                times: vec![NEVER; contact.len()],
+                times: vec![NEVER; self.rates.len()],
             });
         }
         if let Some(Rupture { onset, times }) = &mut self.under_way {
@@ -129,9 +136,7 @@ impl RuptureTimes {
                 }
             }
         }
-        for (k, rate) in self.rates.iter_mut().enumerate() {
-            *rate = contact.slip_rate(k);
-        }
+        std::mem::swap(&mut self.rates, &mut self.now);
         self.time = at.time;
         if largest < self.end {
             self.armed = true;

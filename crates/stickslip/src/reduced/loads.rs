@@ -15,12 +15,8 @@ impl<const C: usize> ReducedBody<C> {
         let mut reduced = Vec::new();
         for load in given {
             reduced.push(match load {
-                Load::Constant(mut load) => {
-                    self.support.basis.forces_to_basis(&mut load);
-                    let mut forces = vec![0.0; self.projector.size()];
-                    self.projector.project(&load, &mut forces)?;
-                    Load::Constant(self.field(&forces))
-                }
+                Load::Constant(load) => Load::Constant(self.projected(load)?),
+                Load::Scaled(load, factor) => Load::Scaled(self.projected(load)?, factor),
                 Load::History(history) => {
                     let size = self.support.fixed.len();
                     let memory = (
@@ -47,6 +43,17 @@ impl<const C: usize> ReducedBody<C> {
             });
         }
         Ok(reduced)
+    }
+
+    /// A load on the coordinates.
+    fn projected(
+        &self,
+        mut load: Vec<SVector<f64, C>>,
+    ) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        self.support.basis.forces_to_basis(&mut load);
+        let mut forces = vec![0.0; self.projector.size()];
+        self.projector.project(&load, &mut forces)?;
+        Ok(self.field(&forces))
     }
 }
 

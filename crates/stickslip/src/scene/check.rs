@@ -89,7 +89,7 @@ pub(crate) fn check_conditions<const C: usize>(
     (size, inertia): (usize, bool),
 ) -> Result<(), SceneError> {
     for load in &conditions.loads {
-        if let Load::Constant(load) = load {
+        if let Load::Constant(load) | Load::Scaled(load, _) = load {
             check_field("load", load, size)?;
         }
     }

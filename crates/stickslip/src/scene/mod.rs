@@ -254,6 +254,33 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
+    /// Adds a load of fixed shape: `factor(t)` times one vector per vertex \[N\], for a time `t` \[s\]. Its cost is that of the
+    /// vertices with a force.
+    ///
+    /// ```
+    /// # use nalgebra::{SMatrix, Vector1};
+    /// # use stickslip::{Newmark, Point, Scene, Simulation};
+    /// // 2 kg under 12 N/s.
+    /// let scene = Scene::new(SMatrix::<f64, 1, 1>::zeros())
+    ///     .with_mass(SMatrix::<f64, 1, 1>::new(2.0))
+    ///     .with_scaled_load(vec![Vector1::new(3.0)], |time| 4.0 * time);
+    /// let mut pushed = Simulation::new(scene, Newmark::default(), Point)?;
+    /// pushed.step(0.5)?;
+    /// assert!((pushed.state().velocity[0][0] - 12.0 / 2.0 * 0.5_f64.powi(2) / 2.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    #[doc(alias = "Neumann")]
+    pub fn with_scaled_load(
+        mut self,
+        load: Vec<SVector<f64, C>>,
+        factor: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        let load = Load::Scaled(load, Arc::new(factor));
+        self.conditions.loads.push(load);
+        self
+    }
+
     /// Adds a time-dependent load: `history` fills one vector per vertex \[N\], initially zero, for the given time
     /// \[s\].
     #[must_use]

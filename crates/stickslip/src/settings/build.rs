@@ -94,7 +94,7 @@ compiled! {
         };
         let matrices = &*problem.matrices;
         let work = Workspace {
-            certificate: Certificate::new(matrices, &contacts),
+            certificate: Certificate::new(matrices, &contacts, &mut *operators.body),
             reactions: Reactions::new(matrices, &contacts),
             again: false,
             impact: false,

@@ -1,13 +1,12 @@
 //! Vertices without friction in explicit steps: force, velocity and acceleration in one pass over memory.
 
 use nalgebra::SVector;
-use stickslip_solvers::for_parts;
+use stickslip_solvers::{for_contact, for_parts};
 use stickslip_time::UpdateFormula;
 
 use super::free_pass::Pass;
-use super::free_step::Other;
 use super::local_steps::weights_after;
-use super::predict::predict_part;
+use super::prediction::{predict_part, predicted_acceleration};
 use super::{Problem, Workspace};
 use crate::StepState;
 
@@ -21,7 +20,7 @@ impl<const C: usize> Workspace<C> {
         &mut self,
         p: &Problem<C>,
         start: &StepState<C>,
-        formula: &UpdateFormula,
+        (formula, time): (&UpdateFormula, f64),
     ) -> bool {
         self.free.solved = false;
         let explicit = !self.operators.implicit && formula.displacement.new_velocity == 0.0;
@@ -38,9 +37,11 @@ impl<const C: usize> Workspace<C> {
             operators,
             ..
         } = self;
-        let Some((pass, others)) = Pass::new(p, operators, start, formula) else {
+        let Some((pass, others)) = Pass::new(p, operators, start, (formula, time)) else {
             return false;
         };
+        free.take_others(others);
+        let others = &*free;
         let fields = (
             (&mut end.displacement[..], &mut end.velocity[..]),
             (&mut end.acceleration[..], &mut load[..]),
@@ -59,19 +60,13 @@ impl<const C: usize> Workspace<C> {
                     [&mut load[own.clone()], &mut v[own.clone()], &mut a[own]],
                 );
             }
+            for other in others.others_in(part.clone()) {
+                let place = other.vertex - part.start;
+                v[place] = start.velocity[other.vertex];
+                a[place] = predicted_acceleration(formula, start, other.vertex);
+            }
         });
-        free.others.clear();
-        free.others.extend(others.iter().map(|&vertex| Other {
-            vertex,
-            load: SVector::zeros(),
-            velocity: SVector::zeros(),
-            acceleration: SVector::zeros(),
-        }));
         free.solved = pass.is_finite();
-        for vertex in free.others() {
-            end.velocity[vertex] = start.velocity[vertex];
-            end.acceleration[vertex] = predicted_acceleration(formula, start, vertex);
-        }
         true
     }
 
@@ -95,84 +90,91 @@ impl<const C: usize> Workspace<C> {
             operators,
             ..
         } = self;
-        let (Some((pass, _)), Some(product)) = (
-            Pass::new(p, operators, start, formula),
-            p.matrices.stiffness().by_parts(),
-        ) else {
-            free.solved = false;
-            return;
-        };
-        for other in &mut free.others {
-            other.load = load[other.vertex];
-            other.velocity = end.velocity[other.vertex];
-            other.acceleration = end.acceleration[other.vertex];
-        }
-        let others = &*free;
-        let begin = |first: usize, load: &mut [SVector<f64, C>]| {
-            let part = first..first + load.len();
-            for run in pass.runs(part.clone()).filter(|run| !run.idle) {
-                pass.begin(&run, &mut load[run.within(first)]);
+        let (displacement, velocity, acceleration) = (
+            &end.displacement[..],
+            &mut end.velocity[..],
+            &mut end.acceleration[..],
+        );
+        let count = free.others.len();
+        for_contact(count, &mut free.others[..], &|_, others| {
+            for other in others {
+                other.load = load[other.vertex];
+                other.velocity = velocity[other.vertex];
+                other.acceleration = acceleration[other.vertex];
             }
-            for other in others.others_in(part) {
-                load[other.vertex - first] = other.load;
-            }
-        };
-        let finish = |first: usize, [load, v, a]: [&mut [SVector<f64, C>]; 3]| {
-            for run in pass.runs(first..first + load.len()) {
-                let own = run.within(first);
-                if !run.idle {
-                    pass.finish(
-                        &run,
-                        [&mut load[own.clone()], &mut v[own.clone()], &mut a[own]],
-                    );
-                    continue;
+        });
+        let pass = Pass::new(p, operators, start, (formula, time));
+        let parts = pass.zip(p.matrices.stiffness().by_parts());
+        let solved = parts.is_some_and(|((pass, _), product)| {
+            let others = &*free;
+            let begin = |first: usize, load: &mut [SVector<f64, C>]| {
+                let part = first..first + load.len();
+                for run in pass.runs(part.clone()).filter(|run| !run.idle) {
+                    pass.begin(&run, &mut load[run.within(first)]);
                 }
-                for other in others.others_in(run.vertices.clone()) {
-                    load[other.vertex - first] -= pass.inertia(other.vertex, &other.acceleration);
+                for other in others.others_in(part) {
+                    load[other.vertex - first] = other.load;
                 }
-            }
-        };
-        let seen = seen(&end.displacement, start, mean_velocity, share);
-        let fields = [&mut load[..], &mut end.velocity, &mut end.acceleration];
-        let weights = weights_after(start.clock.step() + 1);
-        product.multiply_add_by_parts(&weights, -1.0, seen, fields, &begin, &finish);
-        for other in &free.others {
-            end.velocity[other.vertex] = other.velocity;
-            end.acceleration[other.vertex] = other.acceleration;
-        }
-        free.solved &= pass.is_finite();
+            };
+            let finish = |first: usize, [load, v, a]: [&mut [SVector<f64, C>]; 3]| {
+                let part = first..first + load.len();
+                for run in pass.runs(part.clone()) {
+                    let own = run.within(first);
+                    if !run.idle {
+                        pass.finish(
+                            &run,
+                            [&mut load[own.clone()], &mut v[own.clone()], &mut a[own]],
+                        );
+                        continue;
+                    }
+                    for other in others.others_in(run.vertices.clone()) {
+                        load[other.vertex - first] -=
+                            pass.inertia(other.vertex, &other.acceleration);
+                    }
+                }
+                for other in others.others_in(part) {
+                    v[other.vertex - first] = other.velocity;
+                    a[other.vertex - first] = other.acceleration;
+                }
+            };
+            let seen = seen(displacement, start, mean_velocity, share);
+            let fields = [&mut load[..], &mut *velocity, &mut *acceleration];
+            let weights = weights_after(start.clock.step() + 1);
+            product.multiply_add_by_parts(&weights, -1.0, seen, fields, &begin, &finish);
+            pass.is_finite()
+        });
+        free.solved &= solved;
         if !free.solved {
-            for vertex in free.ranges(load.len()).flatten() {
-                end.velocity[vertex] = start.velocity[vertex];
-                end.acceleration[vertex] = predicted_acceleration(formula, start, vertex);
+            for vertex in free.ranges(velocity.len()).flatten() {
+                velocity[vertex] = start.velocity[vertex];
+                acceleration[vertex] = predicted_acceleration(formula, start, vertex);
             }
         }
     }
 
-    /// The load without the forces of the body: of all vertices if it depends on time, else of those that are not free.
+    /// The load without the forces of the body: of all vertices if functions fill fields, else of those that are not free.
     fn fill_load(&mut self, p: &Problem<C>, time: f64) {
-        if p.loads.vary() {
+        if p.loads.fill_fields() {
             p.loads.fill(time, &mut self.load, &mut self.scratch);
         } else {
-            for vertex in self.free.others() {
-                let constant = p.loads.constant_from(vertex).first();
-                self.load[vertex] = constant.copied().unwrap_or_else(SVector::zeros);
-            }
+            let (load, others) = (&mut self.load[..], &self.free);
+            for_parts(0..load.len(), load, &|part, load| {
+                let others = others.others_in(part.clone());
+                for other in others {
+                    load[other.vertex - part.start] = p.loads.constant_at(other.vertex);
+                }
+                for (vertex, force) in p.loads.scaled_in(time, part.clone()) {
+                    if others
+                        .binary_search_by_key(&vertex, |other| other.vertex)
+                        .is_ok()
+                    {
+                        load[vertex - part.start] += force;
+                    }
+                }
+            });
         }
         self.contacts.add_tractions(&mut self.load);
     }
-}
-
-/// `a^` of a vertex.
-fn predicted_acceleration<const C: usize>(
-    formula: &UpdateFormula,
-    start: &StepState<C>,
-    vertex: usize,
-) -> SVector<f64, C> {
-    let to_a = &formula.acceleration;
-    start.displacement[vertex] * to_a.displacement
-        + start.velocity[vertex] * to_a.velocity
-        + start.acceleration[vertex] * to_a.acceleration
 }
 
 /// The displacement whose elastic force is that of the body and of viscosities of a relaxation time, which is the `share`th part

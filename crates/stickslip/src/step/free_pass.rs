@@ -13,8 +13,9 @@ use crate::scene::Loads;
 
 /// What an explicit step knows of each vertex beside its force.
 pub(super) struct Pass<'a, const C: usize> {
-    /// The loads, unless they depend on time.
+    /// The loads, unless functions fill whole fields, and the time at which they act \[s\].
     loads: Option<&'a Loads<C>>,
+    time: f64,
     /// `m_i` \[kg\].
     mass: &'a [f64],
     /// The diagonals of the inverse blocks of `B` [m/(N s)].
@@ -48,16 +49,17 @@ impl<'a, const C: usize> Pass<'a, C> {
         p: &'a Problem<C>,
         operators: &'a mut Operators<C>,
         start: &StepState<C>,
-        formula: &UpdateFormula,
+        (formula, time): (&UpdateFormula, f64),
     ) -> Option<(Self, &'a [usize])> {
         let mass = p.matrices.mass()?.lumps()?;
         let product = p.matrices.stiffness().by_parts()?;
         let free = operators.body.free_vertices()?;
-        let loads = (!p.loads.vary()).then_some(&p.loads);
+        let loads = (!p.loads.fill_fields()).then_some(&p.loads);
         let acts = weights_after(start.clock.step() + 1);
         let highest = acts.iter().rposition(|&weight| weight != 0.0);
         let pass = Self {
             loads,
+            time,
             mass,
             compliances: free.compliances,
             c_a: formula.acceleration.new_velocity,
@@ -88,15 +90,10 @@ impl<'a, const C: usize> Pass<'a, C> {
         }))
     }
 
-    /// Fills the load of a run, unless it depends on time.
+    /// Fills the load of a run, unless functions fill whole fields.
     pub(super) fn begin(&self, run: &Run, load: &mut [SVector<f64, C>]) {
-        let constant = self
-            .loads
-            .map(|loads| loads.constant_from(run.vertices.start));
-        match constant {
-            None => {}
-            Some([]) => load.fill(SVector::zeros()),
-            Some(own) => load.copy_from_slice(&own[..load.len()]),
+        if let Some(loads) = self.loads {
+            loads.fill_range(self.time, run.vertices.clone(), load);
         }
     }
 

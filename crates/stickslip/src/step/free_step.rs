@@ -24,6 +24,20 @@ pub(super) struct Other<const C: usize> {
 }
 
 impl<const C: usize> FreeStep<C> {
+    /// Takes the vertices that are not free, increasing: those of the last step as long as its operator.
+    pub(super) fn take_others(&mut self, others: &[usize]) {
+        if self.others().eq(others.iter().copied()) {
+            return;
+        }
+        self.others.clear();
+        self.others.extend(others.iter().map(|&vertex| Other {
+            vertex,
+            load: SVector::zeros(),
+            velocity: SVector::zeros(),
+            acceleration: SVector::zeros(),
+        }));
+    }
+
     /// The vertices that the velocity problem moves.
     pub(super) fn others(&self) -> impl Iterator<Item = usize> {
         self.others.iter().map(|other| other.vertex)

@@ -15,6 +15,7 @@ mod method;
 mod normal_stress;
 mod operators;
 mod predict;
+mod prediction;
 mod reactions;
 mod resolved;
 mod skew;

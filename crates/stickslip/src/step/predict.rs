@@ -1,12 +1,11 @@
 //! Predictor and corrector of an update formula on the fields of a body.
 
-use std::ops::Range;
-
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_solvers::{Divide, for_parts};
+use stickslip_solvers::{for_contact, for_parts};
 use stickslip_time::UpdateFormula;
 
+use super::prediction::predict;
 use super::{Problem, Span, Workspace, check_finite};
 use crate::laws::StateStep;
 use crate::sums::agreed;
@@ -60,7 +59,7 @@ impl<const C: usize> Workspace<C> {
         (dt, update): (f64, StateUpdate),
         time: f64,
     ) -> Result<(), StepError> {
-        let free = self.predict_free(p, start, formula);
+        let free = self.predict_free(p, start, (formula, time));
         if !free {
             predict(formula, start, &mut self.end);
         }
@@ -151,9 +150,13 @@ impl<const C: usize> Workspace<C> {
         }
         let c_a = formula.acceleration.new_velocity;
         if self.free.solved {
-            for vertex in self.free.others() {
-                end.acceleration[vertex] += end.velocity[vertex] * c_a;
-            }
+            let (free, velocity) = (&self.free, &end.velocity);
+            let acceleration = &mut end.acceleration[..];
+            for_parts(0..acceleration.len(), acceleration, &|part, a| {
+                for other in free.others_in(part.clone()) {
+                    a[other.vertex - part.start] += velocity[other.vertex] * c_a;
+                }
+            });
         } else {
             add_multiple(&mut end.acceleration, c_a, &end.velocity);
         }
@@ -169,9 +172,12 @@ impl<const C: usize> Workspace<C> {
                 now.earlier_normal_stress
                     .copy_from_slice(&old.normal_stress);
             }
-            for (earlier, &vertex) in now.earlier.iter_mut().zip(&contact.part.vertices) {
-                *earlier = start.velocity[vertex];
-            }
+            let (earlier, vertices) = (&mut now.earlier[..], &contact.part.vertices);
+            for_contact(earlier.len(), earlier, &|places, earlier| {
+                for (earlier, &vertex) in earlier.iter_mut().zip(&vertices[places]) {
+                    *earlier = start.velocity[vertex];
+                }
+            });
         }
         end.last_step = dt;
     }
@@ -222,65 +228,6 @@ fn copy<'a, const C: usize>(
     memory.get_or_insert_with(|| Box::new(from.clone()))
 }
 
-/// `u^` and `a^`, and the velocity of the start; no acceleration without mass.
-fn predict<const C: usize>(formula: &UpdateFormula, start: &StepState<C>, end: &mut StepState<C>) {
-    let (to_u, to_a) = (&formula.displacement, &formula.acceleration);
-    let fields = (
-        &mut end.displacement[..],
-        (&mut end.velocity[..], Part(&mut end.acceleration[..])),
-    );
-    for_parts(0..start.displacement.len(), fields, &|part,
-                                                     (
-        new_u,
-        (new_v, Part(new_a)),
-    )| {
-        new_v.copy_from_slice(&start.velocity[part.clone()]);
-        predict_part(formula, start, part, [new_u, new_a]);
-    });
-    for (i, w) in start.algorithmic.iter().enumerate() {
-        end.displacement[i] += w * to_u.algorithmic;
-        if let Some(acceleration) = end.acceleration.get_mut(i) {
-            *acceleration += w * to_a.algorithmic;
-        }
-    }
-}
-
-/// `u^` and `a^` of a part of the vertices, without algorithmic accelerations; no acceleration for an empty one.
-#[inline(always)]
-pub(super) fn predict_part<const C: usize>(
-    formula: &UpdateFormula,
-    start: &StepState<C>,
-    part: Range<usize>,
-    [new_u, new_a]: [&mut [SVector<f64, C>]; 2],
-) {
-    let (to_u, to_a) = (&formula.displacement, &formula.acceleration);
-    let (u, v) = (
-        &start.displacement[part.clone()],
-        &start.velocity[part.clone()],
-    );
-    for ((new_u, u), v) in new_u.iter_mut().zip(u).zip(v) {
-        *new_u = u * to_u.displacement + v * to_u.velocity;
-    }
-    // In the cache by now.
-    let Some(a) = start.acceleration.get(part) else {
-        return;
-    };
-    for (i, (new_a, a)) in new_a.iter_mut().zip(a).enumerate() {
-        new_u[i] += a * to_u.acceleration;
-        *new_a = u[i] * to_a.displacement + v[i] * to_a.velocity + a * to_a.acceleration;
-    }
-}
-
-/// A field that may be empty.
-struct Part<'a, T>(&'a mut [T]);
-
-impl<T: Send> Divide for Part<'_, T> {
-    fn divide(self, vertices: usize, _: usize) -> (Self, Self) {
-        let (before, behind) = self.0.split_at_mut(vertices.min(self.0.len()));
-        (Self(before), Self(behind))
-    }
-}
-
 /// `to += factor v`; nothing of an empty field.
 fn add_multiple<const C: usize>(to: &mut [SVector<f64, C>], factor: f64, v: &[SVector<f64, C>]) {
     for_parts(0..to.len(), to, &|part, to| {
@@ -296,11 +243,16 @@ fn add_slip<const C: usize>(
     start: &StepState<C>,
     end: &mut StepState<C>,
 ) {
+    let displacement = &end.displacement;
     let states = end.contacts.iter_mut().zip(&start.contacts);
     for (contact, (now, before)) in contacts.contacts.iter().zip(states) {
-        for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-            let moved = end.displacement[vertex] - start.displacement[vertex];
-            now.slip[k] = before.slip[k] + modulus(&contact.tangential(k, &moved));
-        }
+        let slip = &mut now.slip[..];
+        for_contact(slip.len(), slip, &|places, slip| {
+            for (slip, k) in slip.iter_mut().zip(places) {
+                let vertex = contact.part.vertices[k];
+                let moved = displacement[vertex] - start.displacement[vertex];
+                *slip = before.slip[k] + modulus(&contact.tangential(k, &moved));
+            }
+        });
     }
 }

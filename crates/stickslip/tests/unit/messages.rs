@@ -72,7 +72,7 @@ fn a_setting_out_of_range_is_told_with_its_range() {
     };
     assert_eq!(
         data.to_string(),
-        "load at vertex 3 must be finite, is inf; check functions of with_load_history, and plate rates"
+        "load at vertex 3 must be finite, is inf; check functions of with_load_history and with_scaled_load, and plate rates"
     );
 }
 
@@ -203,7 +203,7 @@ fn a_failure_names_contact_and_cell() {
     );
     assert_eq!(
         placed.to_string(),
-        "step 7 at t = 2 s: load at vertex 14 must be finite, is NaN; check functions of with_load_history, and plate \
+        "step 7 at t = 2 s: load at vertex 14 must be finite, is NaN; check functions of with_load_history and with_scaled_load, and plate \
          rates; vertex 14 is number 4 of contact(1), in row 1 and column 1, at [1.5, 1.5] m"
     );
 }

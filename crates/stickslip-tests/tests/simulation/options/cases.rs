@@ -122,7 +122,7 @@ const fn refused(
     }
 }
 
-pub(super) const CASES: [Case; 38] = [
+pub(super) const CASES: [Case; 39] = [
     used("with_contact", |s| {
         let wall = Contact::new(&right(s)?, Tresca { coefficient: 0.3 }, 1e2);
         Ok([body(s)?, body(s)?.with_contact(wall)])
@@ -141,6 +141,10 @@ pub(super) const CASES: [Case; 38] = [
     used("with_load", |s| {
         let weight = body_force(s, |_| Vector2::new(300.0, 0.0));
         Ok([body(s)?, body(s)?.with_load(weight)])
+    }),
+    used("with_scaled_load", |s| {
+        let pull = vec![Vector2::new(300.0, 0.0); s.vertex_count()];
+        Ok([body(s)?, body(s)?.with_scaled_load(pull, |time| time)])
     }),
     used("with_load_history", |s| {
         let history = |time: f64, load: &mut [Vector2<f64>]| {

@@ -5,7 +5,7 @@ use stickslip_friction::modulus;
 use stickslip_solvers::SolveError;
 
 use super::definite::Definite;
-use crate::body::Matrices;
+use crate::body::{Body, Matrices};
 use crate::contact::ContactSet;
 use crate::step::{Problem, Workspace};
 use crate::{StepError, StepState};
@@ -18,12 +18,18 @@ pub(crate) struct Certificate<const C: usize> {
     /// Slopes for which the operator of these factors is certified as positive definite.
     certified: Vec<f64>,
     factors: Option<(f64, f64)>,
-    pub(super) definite: Definite<C>,
+    /// Memory for conjugate gradients; none before a solver leaves the test to them.
+    pub(super) definite: Option<Definite<C>>,
 }
 
 impl<const C: usize> Certificate<C> {
-    /// A workspace; none for contacts that weaken nowhere.
-    pub(crate) fn new(matrices: &dyn Matrices<C>, contacts: &ContactSet<C>) -> Option<Box<Self>> {
+    /// A workspace for a body; none for contacts that weaken nowhere.
+    pub(crate) fn new(
+        matrices: &dyn Matrices<C>,
+        contacts: &ContactSet<C>,
+        body: &mut dyn Body<C>,
+    ) -> Option<Box<Self>> {
+        let told = body.condenses() || body.free_vertices().is_some();
         let weakens = matrices.stiffness().ranks().any(contacts.may_weaken());
         let sites = contacts.vertices.len();
         weakens.then(|| {
@@ -31,7 +37,7 @@ impl<const C: usize> Certificate<C> {
                 slopes: vec![0.0; sites],
                 certified: vec![0.0; sites],
                 factors: None,
-                definite: Definite::new(matrices.stiffness()),
+                definite: (!told).then(|| Definite::new(matrices.stiffness())),
             })
         })
     }
@@ -122,18 +128,19 @@ impl<const C: usize> Certificate<C> {
     }
 }
 
-/// Whether the operator of the step is positive definite with slopes of friction: by a dense factorisation if the
-/// solver has the operator condensed to the contact.
+/// Whether the operator of the step is positive definite with slopes of friction: by the solver if it can tell, of blocks or of
+/// the operator condensed to the contact, else by conjugate gradients.
 pub(super) fn is_definite<const C: usize>(
-    definite: &mut Definite<C>,
+    definite: &mut Option<Definite<C>>,
     p: &Problem<C>,
     w: &mut Workspace<C>,
     slopes: &[f64],
 ) -> bool {
-    if let Some(is_definite) = w.operators.body.is_condensed_definite_with(slopes) {
-        return is_definite;
+    if let Some(is_definite) = w.operators.body.is_definite_with(slopes) {
+        return p.ranks.all(is_definite);
     }
     let slopes = (w.contacts.vertices.as_slice(), slopes);
+    let definite = definite.get_or_insert_with(|| Definite::new(w.operators.step()));
     (w.operators).is_definite_with(definite, slopes, &p.constraints.fixed)
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use super::definite::Definite;
 use crate::laws::StateStep;
 use crate::step::{Problem, Span, Workspace};
 use crate::{StepError, StepState};
@@ -87,7 +88,9 @@ pub(crate) fn convexity<const C: usize>(
         w.operators.prepared = None;
         (w.operators).form(p.matrices.has_mass(), factors, &w.contacts.vertices);
         let slopes = (w.contacts.vertices.as_slice(), &*certificate.slopes);
-        (w.operators).is_definite_with(&mut certificate.definite, slopes, fixed)
+        let definite = &mut certificate.definite;
+        let definite = definite.get_or_insert_with(|| Definite::new(w.operators.step()));
+        (w.operators).is_definite_with(definite, slopes, fixed)
     };
     w.certificate = Some(certificate);
     Ok(found)
