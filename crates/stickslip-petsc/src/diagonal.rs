@@ -99,7 +99,7 @@ impl<const C: usize> NonsmoothSolver<DistributedElements<C>, C> for DistributedD
     }
 
     fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
-        self.own.is_definite_with(slopes)
+        NonsmoothSolver::<BlockMatrix<C>, C>::is_definite_with(&mut self.own, slopes)
     }
 
     fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<DistributedElements<C>, C>> {
@@ -123,7 +123,7 @@ impl<const C: usize> NonsmoothSolver<DistributedMatrix<C>, C> for DistributedDia
     }
 
     fn is_definite_with(&mut self, slopes: &[f64]) -> Option<bool> {
-        self.own.is_definite_with(slopes)
+        NonsmoothSolver::<BlockMatrix<C>, C>::is_definite_with(&mut self.own, slopes)
     }
 
     fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<DistributedMatrix<C>, C>> {
